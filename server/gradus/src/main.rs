@@ -1,0 +1,2 @@
+//! The `gradus` executable: command line and language server.
+fn main() {}

@@ -1,0 +1,99 @@
+use std::collections::HashMap;
+
+use logic::Name;
+use source::Span;
+
+/// What a declared variable is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Class {
+    /// Comes from the plant or the caller.
+    Input,
+    /// Goes to the plant or the caller.
+    Output,
+    /// Both.
+    InOut,
+    /// Kept inside.
+    Internal,
+    /// Never changes.
+    Constant,
+    /// Declared without a purpose, or elsewhere (external, alias).
+    Unknown,
+}
+
+/// A variable that the source declares.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Declaration {
+    /// Its canonical name, as operands give it.
+    pub name: Name,
+    /// Its address: `%QX0.1`, `Local:1:I.Data.4`.
+    pub address: Option<Name>,
+    /// What the source says about it.
+    pub description: Option<Name>,
+    /// What it is for.
+    pub class: Class,
+    /// Its type in the source's notation: `BOOL`, `TIMER`.
+    pub data_type: Option<Name>,
+    /// Its initial value in the source's notation.
+    pub initial: Option<Name>,
+    /// Where it is declared.
+    pub span: Span,
+}
+
+impl Declaration {
+    /// A declaration of `name` at `span` with nothing else said.
+    pub fn new(name: impl Into<Name>, class: Class, span: Span) -> Self {
+        Self {
+            name: name.into(),
+            address: None,
+            description: None,
+            class,
+            data_type: None,
+            initial: None,
+            span,
+        }
+    }
+}
+
+/// The declarations of a program in the order of the source, found by name.
+#[derive(Clone, Debug, Default)]
+pub struct Declarations {
+    list: Vec<Declaration>,
+    places: HashMap<Name, usize>,
+}
+
+impl Declarations {
+    /// Adds a declaration. If the name has one already the first stays found
+    /// by name, and its place is the answer.
+    pub fn add(&mut self, declaration: Declaration) -> Option<&Declaration> {
+        let place = self.list.len();
+        let name = declaration.name.clone();
+        self.list.push(declaration);
+        match self.places.entry(name) {
+            std::collections::hash_map::Entry::Vacant(free) => {
+                free.insert(place);
+                None
+            }
+            std::collections::hash_map::Entry::Occupied(taken) => Some(&self.list[*taken.get()]),
+        }
+    }
+
+    /// The declaration of `name`.
+    pub fn find(&self, name: &str) -> Option<&Declaration> {
+        self.places.get(name).map(|&at| &self.list[at])
+    }
+
+    /// All, in the order of the source.
+    pub fn iter(&self) -> std::slice::Iter<'_, Declaration> {
+        self.list.iter()
+    }
+
+    /// Number of declarations.
+    pub fn len(&self) -> usize {
+        self.list.len()
+    }
+
+    /// Whether nothing is declared.
+    pub fn is_empty(&self) -> bool {
+        self.list.is_empty()
+    }
+}

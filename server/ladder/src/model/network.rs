@@ -1,0 +1,160 @@
+use logic::Name;
+use petgraph::Direction;
+use petgraph::graph::{DiGraph, NodeIndex};
+use petgraph::visit::EdgeRef;
+use source::Span;
+
+use super::{Element, ElementKind};
+
+/// Where a wire leaves or arrives at an element.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, Default)]
+pub enum Port {
+    /// The power flow itself: a contact's two ends, a box's `EN` and `ENO`.
+    #[default]
+    Power,
+    /// A named pin of a box.
+    Pin(Name),
+}
+
+/// A connection from one element to another.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, Default)]
+pub struct Wire {
+    /// Where it leaves its source.
+    pub from: Port,
+    /// Where it arrives.
+    pub to: Port,
+    /// Whether it hands over the complement (a negated pin).
+    pub negated: bool,
+    /// Whether it hands over an edge only (an edge pin).
+    pub edge: Option<super::Edge>,
+}
+
+/// The power flow of a rung: elements joined by wires, from the left rail on.
+///
+/// The graph is acyclic and its node order is the order of solving: left to
+/// right, top leg first. Several wires that arrive at one port are a parallel
+/// connection: the port is on when any of them is. So contacts in series are a
+/// chain, and branches need no node of their own.
+#[derive(Clone, Debug)]
+pub struct Network {
+    graph: DiGraph<Element, Wire>,
+}
+
+impl Network {
+    /// The left rail, the first element of every network.
+    pub fn rail() -> NodeIndex {
+        NodeIndex::new(0)
+    }
+
+    /// Elements in the order of solving, the rail first.
+    pub fn elements(&self) -> impl Iterator<Item = (NodeIndex, &Element)> {
+        self.graph.node_indices().map(|at| (at, &self.graph[at]))
+    }
+
+    /// The element at a place of this network.
+    pub fn element(&self, at: NodeIndex) -> &Element {
+        &self.graph[at]
+    }
+
+    /// The wires that arrive at an element with the elements they leave from,
+    /// in the order in which they were drawn.
+    pub fn arriving(&self, at: NodeIndex) -> Vec<(NodeIndex, &Wire)> {
+        let mut wires: Vec<_> = self
+            .graph
+            .edges_directed(at, Direction::Incoming)
+            .map(|edge| (edge.id(), edge.source(), edge.weight()))
+            .collect();
+        wires.sort_by_key(|(id, ..)| *id);
+        wires
+            .into_iter()
+            .map(|(_, from, wire)| (from, wire))
+            .collect()
+    }
+
+    /// The wires that leave an element with the elements they lead to.
+    pub fn leaving(&self, at: NodeIndex) -> Vec<(NodeIndex, &Wire)> {
+        let mut wires: Vec<_> = self
+            .graph
+            .edges_directed(at, Direction::Outgoing)
+            .map(|edge| (edge.id(), edge.target(), edge.weight()))
+            .collect();
+        wires.sort_by_key(|(id, ..)| *id);
+        wires.into_iter().map(|(_, to, wire)| (to, wire)).collect()
+    }
+
+    /// Number of elements, the rail included.
+    pub fn len(&self) -> usize {
+        self.graph.node_count()
+    }
+
+    /// Whether there is nothing but the rail.
+    pub fn is_empty(&self) -> bool {
+        self.len() <= 1
+    }
+
+    /// The graph itself, for algorithms of petgraph.
+    pub fn graph(&self) -> &DiGraph<Element, Wire> {
+        &self.graph
+    }
+}
+
+/// Builds a network, element by element in the order of solving.
+#[derive(Clone, Debug)]
+pub struct NetworkBuilder {
+    graph: DiGraph<Element, Wire>,
+}
+
+impl NetworkBuilder {
+    /// A network with nothing but the left rail, drawn at `span`.
+    pub fn new(span: Span) -> Self {
+        let mut graph = DiGraph::new();
+        graph.add_node(Element {
+            kind: ElementKind::Rail,
+            span,
+        });
+        Self { graph }
+    }
+
+    /// Adds an element, solved after all that were added before it.
+    pub fn add(&mut self, kind: ElementKind, span: Span) -> NodeIndex {
+        self.graph.add_node(Element { kind, span })
+    }
+
+    /// Adds an element in series after a parallel connection of `sources`.
+    /// Without a source it never gets power.
+    pub fn add_after(&mut self, sources: &[NodeIndex], kind: ElementKind, span: Span) -> NodeIndex {
+        let element = self.add(kind, span);
+        for source in sources {
+            self.graph.add_edge(*source, element, Wire::default());
+        }
+        element
+    }
+
+    /// Joins two elements. A wire back to an element solved earlier, or to
+    /// itself, would close a circle and is refused: then nothing is drawn and
+    /// the answer is `false`.
+    #[must_use = "a refused wire needs a diagnostic"]
+    pub fn join(&mut self, from: NodeIndex, to: NodeIndex, wire: Wire) -> bool {
+        if from >= to {
+            return false;
+        }
+        self.graph.add_edge(from, to, wire);
+        true
+    }
+
+    /// Number of elements so far.
+    pub fn len(&self) -> usize {
+        self.graph.node_count()
+    }
+
+    /// Whether there is nothing but the rail.
+    pub fn is_empty(&self) -> bool {
+        self.len() <= 1
+    }
+
+    /// The network.
+    pub fn finish(mut self) -> Network {
+        self.graph.shrink_to_fit();
+        Network { graph: self.graph }
+    }
+}

@@ -1,0 +1,116 @@
+use logic::Name;
+use source::Span;
+
+use super::{Chart, Declarations, Network};
+
+/// Which form a program was read from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Format {
+    /// The project's own rung notation.
+    Ladder,
+    /// Rockwell L5X (XML).
+    L5x,
+    /// Rockwell L5K (text).
+    L5k,
+    /// Bare Rockwell neutral text.
+    NeutralText,
+    /// PLCopen TC6 XML.
+    Plcopen,
+    /// A ladder drawn with characters.
+    Ascii,
+    /// None that is known.
+    Unknown,
+}
+
+impl Format {
+    /// The name used in answers: `l5x`, `plcopen`.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Ladder => "ladder",
+            Self::L5x => "l5x",
+            Self::L5k => "l5k",
+            Self::NeutralText => "neutral-text",
+            Self::Plcopen => "plcopen",
+            Self::Ascii => "ascii",
+            Self::Unknown => "unknown",
+        }
+    }
+}
+
+/// A ladder program.
+#[derive(Clone, Debug)]
+pub struct Program {
+    /// The form it was read from.
+    pub format: Format,
+    /// Its name in the source, empty where it has none.
+    pub name: Name,
+    /// Variables that the source declares.
+    pub declarations: Declarations,
+    /// Routines, in the order in which their units are solved; those reached
+    /// by calls are solved where they are called.
+    pub routines: Vec<Routine>,
+    /// Charts that the source holds beside its ladders.
+    pub charts: Vec<Chart>,
+}
+
+impl Program {
+    /// A program that holds nothing.
+    pub fn empty(format: Format) -> Self {
+        Self {
+            format,
+            name: "".into(),
+            declarations: Declarations::default(),
+            routines: Vec::new(),
+            charts: Vec::new(),
+        }
+    }
+
+    /// All rungs with their routines, in the order of the source.
+    pub fn rungs(&self) -> impl Iterator<Item = (&Routine, &Rung)> {
+        self.routines
+            .iter()
+            .flat_map(|routine| routine.rungs.iter().map(move |rung| (routine, rung)))
+    }
+}
+
+/// When a routine is solved.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Role {
+    /// Every scan, in the order of the list.
+    Main,
+    /// When a call leads to it.
+    Called,
+    /// Once for every instance of a block that the user defines (AOI, function
+    /// block, function): its variables are the instance's.
+    Definition,
+}
+
+/// A list of rungs that are solved one after the other.
+#[derive(Clone, Debug)]
+pub struct Routine {
+    /// `Program/Routine`, or the POU: what answers call `scope`.
+    pub scope: Name,
+    /// The unit that calls are resolved in: the program or POU.
+    pub unit: Name,
+    /// Its own name.
+    pub name: Name,
+    /// When it is solved.
+    pub role: Role,
+    /// Its rungs, in the order of solving.
+    pub rungs: Vec<Rung>,
+    /// Where it stands.
+    pub span: Span,
+}
+
+/// A rung.
+#[derive(Clone, Debug)]
+pub struct Rung {
+    /// The number that the source gives it, else its place from 0.
+    pub number: u32,
+    /// Its title or comment.
+    pub comment: Option<Name>,
+    /// Its power flow.
+    pub network: Network,
+    /// Where it stands, the whole of it.
+    pub span: Span,
+}

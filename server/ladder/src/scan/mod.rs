@@ -1,0 +1,1 @@
+//! The scan: how a controller solves a program.
