@@ -1,1 +1,14 @@
-//! To be written.
+//! From a ladder to its grafcet.
+//!
+//! ```text
+//! Program -> Conditions -> States, Registers -> Successions -> (expert) -> Grafcet
+//! ```
+//!
+//! [`conditions`] says of every coil what starts, keeps and ends it;
+//! [`states`] which coils hold the states of the process, [`registers`] which
+//! numbers count its steps; [`successions`] which state may follow which.
+
+pub mod conditions;
+pub mod registers;
+pub mod states;
+pub mod successions;
