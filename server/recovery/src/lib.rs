@@ -9,6 +9,8 @@
 //! numbers count its steps; [`successions`] which state may follow which.
 
 pub mod conditions;
+pub mod findings;
+pub mod groups;
 pub mod registers;
 pub mod states;
 pub mod successions;
