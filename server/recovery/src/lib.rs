@@ -8,9 +8,13 @@
 //! [`states`] which coils hold the states of the process, [`registers`] which
 //! numbers count its steps; [`successions`] which state may follow which.
 
+mod analysis;
 pub mod conditions;
+pub mod conversion;
 pub mod findings;
 pub mod groups;
 pub mod registers;
 pub mod states;
 pub mod successions;
+
+pub use analysis::{Analysis, analyse};

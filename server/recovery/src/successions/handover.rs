@@ -58,6 +58,12 @@ pub(super) fn handovers(states: &States, budget: &Budget) -> Vec<Handover> {
     found
 }
 
+/// The condition under which `from` hands over to `to`, if it does and that
+/// can be told within the budget.
+pub(crate) fn handed_over(from: &State, to: &State, budget: &Budget) -> Option<Function> {
+    handover(from, to, budget).ok().flatten()
+}
+
 /// The condition under which `from` hands over to `to`, if it does.
 ///
 /// With `from` on and `to` off, what starts `to` implies what ends `from`, or

@@ -14,6 +14,7 @@ mod shared;
 use logic::{AtomId, Budget, Function, Name};
 
 pub use cubes::cubes;
+pub(crate) use handover::handed_over;
 pub use possible::possible;
 
 use crate::conditions::Conditions;
