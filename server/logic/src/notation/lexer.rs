@@ -298,6 +298,11 @@ impl<'t> Lexer<'t> {
             .and_then(|at| self.tokens.get(at).copied())
     }
 
+    /// The tokens taken since a [`mark`](Lexer::mark) of this lexer.
+    pub fn taken_since(&self, mark: usize) -> &[Token] {
+        self.tokens.get(mark..self.next).unwrap_or_default()
+    }
+
     /// A mark that [`Lexer::rewind`] goes back to.
     pub fn mark(&self) -> usize {
         self.next
