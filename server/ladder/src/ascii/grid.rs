@@ -16,6 +16,8 @@ struct Cell {
     character: char,
     /// Its first byte in the file, byte order mark included.
     at: usize,
+    /// The byte behind it.
+    end: usize,
 }
 
 /// A line.
@@ -53,14 +55,15 @@ impl Grid {
                 '\t' => TAB - row.cells.len() % TAB,
                 _ => 1,
             };
+            let at = source.base + at;
+            let end = at + character.len_utf8();
             let character = match character {
                 _ if noted => ' ',
                 c if c.is_whitespace() || c == '\u{feff}' => ' ',
                 c => c,
             };
-            let at = source.base + at;
-            row.cells
-                .extend(std::iter::repeat_n(Cell { character, at }, width));
+            let cell = Cell { character, at, end };
+            row.cells.extend(std::iter::repeat_n(cell, width));
         }
         Self {
             rows,
@@ -92,7 +95,7 @@ impl Grid {
         };
         let last = columns.end.checked_sub(1).and_then(|at| row.cells.get(at));
         match (row.cells.get(columns.start), last) {
-            (Some(first), Some(last)) => Span::new(first.at, last.at + last.character.len_utf8()),
+            (Some(first), Some(last)) => Span::new(first.at, last.end),
             _ => Span::at(self.end),
         }
     }

@@ -318,9 +318,12 @@ impl<'d> Drawn<'d> {
             .iter()
             .map(|source| self.source(*source))
             .collect();
-        let is_solved = feeds.iter().all(Option::is_some);
-        if net.sinks.len() < 2 || net.sources.len() * net.sinks.len() <= MOST_WIRES || !is_solved {
+        if net.sinks.len() < 2 || net.sources.len() * net.sinks.len() <= MOST_WIRES {
             return feeds;
+        }
+        let mut ends = Vec::new();
+        if feeds.iter().any(Option::is_none) {
+            ends.push(None);
         }
         let at = element::place(self.grid, &self.drawing.symbols[net.sources[0].0]);
         let place = Span::at(at.end as usize);
@@ -334,7 +337,8 @@ impl<'d> Drawn<'d> {
             debug_assert!(joined, "a gate comes after what feeds it");
         }
         self.gates.insert(end.net, gate);
-        vec![Some((gate, Port::Power))]
+        ends.push(Some((gate, Port::Power)));
+        ends
     }
 
     fn source(&self, (symbol, end): (usize, usize)) -> Option<(NodeIndex, Port)> {

@@ -209,7 +209,8 @@ enum Piece {
     Unclosed(char),
 }
 
-/// Characters between the brackets of an element: `[<>]`, `[ / ]`.
+/// Most characters between the brackets of an element: `[<>]`, `[ / ]`,
+/// `<RETURN>`.
 const WIDEST: usize = 8;
 
 /// What begins at a column, and the column where it ends.
@@ -231,7 +232,7 @@ fn piece(row: &Row, start: usize) -> (usize, Piece) {
             let label = row.text(start + 2..end).trim().to_owned();
             (end, Piece::Symbol(SymbolKind::Jump(label)))
         }
-        '<' if after_wire => match closing(row, start + 1, '>', usize::MAX) {
+        '<' if after_wire => match closing(row, start + 1, '>', WIDEST) {
             Some(close) => {
                 let word = row.text(start + 1..close).trim().to_owned();
                 (close + 1, Piece::Symbol(SymbolKind::Return(word)))
