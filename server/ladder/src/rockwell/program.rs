@@ -302,6 +302,12 @@ fn surroundings(project: &Project<'_>, units: &[Parsed<'_, '_>], names: &Names) 
         parsed.each_instruction(&mut |text, instruction| {
             for range in written(text, instruction) {
                 let operand = text.get(range).unwrap_or_default();
+                // An alias may stand for a preset; it is written without a dot.
+                let may_be_preset =
+                    !operand.contains('.') || operand.to_lowercase().ends_with(".pre");
+                if !may_be_preset {
+                    continue;
+                }
                 let place = names.place_of(parsed.scope, operand);
                 surroundings
                     .written_presets

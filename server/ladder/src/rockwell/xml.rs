@@ -386,7 +386,10 @@ impl<'d, 't> Element<'d, 't> {
     /// The bytes of the start tag.
     pub(super) fn tag_span(self) -> Span {
         let node = self.node();
-        self.document.source.span(node.start, node.inner_end + 1)
+        let source = self.document.source;
+        let rest = source.text.get(node.inner_end..).unwrap_or_default();
+        let closing = if rest.starts_with("/>") { 2 } else { 1 };
+        source.span(node.start, node.inner_end + closing)
     }
 
     fn inside(self) -> impl Iterator<Item = usize> {

@@ -27,32 +27,33 @@
 mod scanner;
 mod tags;
 
+use std::ops::Range;
+
 use source::{Diagnostic, codes};
 
 use super::listing;
 use super::program;
-use super::project::{Edits, Inhibition, Project, RoutineSource, Unit, UnitKind};
+use super::project::{Edits, Inhibition, Project, RoutineSource, Tag, Unit, UnitKind};
+use crate::Format;
 use crate::reading::{Reading, Source};
-use crate::{Class, Format};
-use scanner::{Component, Scanner};
+use scanner::{Component, Ends, Scanner, first_word};
 
 /// Whether `text`, without blanks before it, is an L5K.
 pub(super) fn looks_like_it(text: &str) -> bool {
-    let mut scanner = Scanner::new(text, 0..text.len());
-    match scanner.word() {
-        Some("IE_VER" | "CONTROLLER") => true,
-        Some("PROGRAM" | "ROUTINE" | "ADD_ON_INSTRUCTION_DEFINITION") => {
-            text.contains("END_ROUTINE")
-        }
+    match first_word(text) {
+        "IE_VER" | "CONTROLLER" => true,
+        "PROGRAM" | "ROUTINE" | "ADD_ON_INSTRUCTION_DEFINITION" => text.contains("END_ROUTINE"),
         _ => false,
     }
 }
 
 /// Reads an L5K file.
 pub(super) fn read(source: Source<'_>) -> Reading {
+    let ends = Ends::of(source.text);
     let mut file = File {
         source,
         project: Project::empty(Format::L5k),
+        ends: &ends,
         loose: Unit::empty(UnitKind::Program { main: None }, String::new()),
     };
     file.components(0..source.text.len());
@@ -66,18 +67,19 @@ pub(super) fn read(source: Source<'_>) -> Reading {
 }
 
 /// A file being read.
-struct File<'t> {
+struct File<'t, 'e> {
     source: Source<'t>,
+    ends: &'e Ends<'t>,
     project: Project<'t>,
     /// Routines that stand in no program.
     loose: Unit<'t>,
 }
 
-impl<'t> File<'t> {
+impl<'t> File<'t, '_> {
     /// Reads the components in `range`. Only a controller holds others of this
     /// kind, and a controller in a controller ends the descent.
-    fn components(&mut self, range: std::ops::Range<usize>) {
-        let mut scanner = Scanner::new(self.source.text, range);
+    fn components(&mut self, range: Range<usize>) {
+        let mut scanner = Scanner::new(self.source.text, range, self.ends);
         while let Some(component) = scanner.component() {
             self.report_missing_end(&component);
             match component.word {
@@ -86,7 +88,7 @@ impl<'t> File<'t> {
                     self.components(component.inside);
                 }
                 "TAG" => {
-                    let tags = tags::tags(self.source, component.inside, Class::Internal);
+                    let tags = self.tags(component.inside);
                     self.project.tags.extend(tags);
                 }
                 "PROGRAM" => self.program(&component),
@@ -129,16 +131,16 @@ impl<'t> File<'t> {
     }
 
     fn unit_parts(&mut self, unit: &mut Unit<'t>, component: &Component<'t>) {
-        let mut scanner = Scanner::new(self.source.text, component.inside.clone());
+        let mut scanner = Scanner::new(self.source.text, component.inside.clone(), self.ends);
         while let Some(part) = scanner.component() {
             self.report_missing_end(&part);
             match part.word {
                 "TAG" | "LOCAL_TAGS" => {
-                    let tags = tags::tags(self.source, part.inside, Class::Internal);
+                    let tags = self.tags(part.inside);
                     unit.tags.extend(tags);
                 }
                 "PARAMETERS" => {
-                    let parameters = tags::parameters(self.source, part.inside);
+                    let parameters = tags::parameters(self.source, self.statements(part.inside));
                     if let UnitKind::Instruction { passed } = &mut unit.kind {
                         *passed = parameters.passed;
                     }
@@ -151,6 +153,15 @@ impl<'t> File<'t> {
                 _ => self.routine(unit, &part),
             }
         }
+    }
+
+    fn tags(&self, range: Range<usize>) -> Vec<Tag> {
+        tags::tags(self.source, self.statements(range))
+    }
+
+    fn statements(&self, range: Range<usize>) -> impl Iterator<Item = Range<usize>> {
+        let mut scanner = Scanner::new(self.source.text, range, self.ends);
+        std::iter::from_fn(move || scanner.statement())
     }
 
     fn routine(&mut self, unit: &mut Unit<'t>, component: &Component<'t>) {
@@ -188,10 +199,10 @@ impl<'t> File<'t> {
     }
 
     fn task(&mut self, component: &Component<'t>) {
-        let mut scanner = Scanner::new(self.source.text, component.inside.clone());
-        let schedule = self.project.schedule.get_or_insert_default();
+        let mut scanner = Scanner::new(self.source.text, component.inside.clone(), self.ends);
         while let Some(statement) = scanner.statement() {
             let program = self.source.text.get(statement).unwrap_or_default();
+            let schedule = self.project.schedule.get_or_insert_default();
             schedule.push(program.trim_end_matches(';').trim().to_owned());
         }
     }

@@ -36,47 +36,95 @@ impl Component<'_> {
     }
 }
 
-/// Goes through a part of a text.
+/// The places of all `END_` words of a text, found once, so that looking for
+/// the end of a component does not walk over the text again and again.
 #[derive(Debug)]
-pub(super) struct Scanner<'t> {
-    text: &'t str,
-    at: usize,
+pub(super) struct Ends<'t> {
+    places: HashMap<&'t str, Vec<End>>,
 }
 
-impl<'t> Scanner<'t> {
-    /// A scanner for `range` of `text`.
-    pub(super) fn new(text: &'t str, range: Range<usize>) -> Self {
+#[derive(Clone, Copy, Debug)]
+struct End {
+    at: usize,
+    /// Whether only blanks stand before it on its line.
+    begins_line: bool,
+}
+
+impl<'t> Ends<'t> {
+    /// The `END_` words of `text` that stand at the beginning of a line or after
+    /// something that ends a statement.
+    pub(super) fn of(text: &'t str) -> Self {
+        let mut places: HashMap<&str, Vec<End>> = HashMap::new();
+        for (at, mark) in text.match_indices(END) {
+            let before = text[..at].trim_end_matches([' ', '\t']);
+            let begins_line = before.is_empty() || before.ends_with(['\n', '\r']);
+            if begins_line || before.ends_with([';', ')']) {
+                let word_start = at + mark.len();
+                let word = &text[word_start..name_end(text, word_start)];
+                places
+                    .entry(word)
+                    .or_default()
+                    .push(End { at, begins_line });
+            }
+        }
+        Self { places }
+    }
+
+    /// The first end of a component called `word` in `range`.
+    fn find(&self, word: &str, range: Range<usize>) -> Option<usize> {
+        // Structured text and encoded data hold quotes that nothing closes; an end
+        // word in them counts at the beginning of a line only.
+        let raw = !matches!(word, "CONTROLLER" | "PROGRAM" | "ROUTINE" | "TAG" | "TASK");
+        let places = self.places.get(word)?;
+        let first = places.partition_point(|end| end.at < range.start);
+        places
+            .get(first..)?
+            .iter()
+            .take_while(|end| end.at < range.end)
+            .find(|end| end.begins_line || !raw)
+            .map(|end| end.at)
+    }
+}
+
+const END: &str = "END_";
+
+/// Goes through a part of a text.
+#[derive(Debug)]
+pub(super) struct Scanner<'t, 'e> {
+    text: &'t str,
+    at: usize,
+    ends: &'e Ends<'t>,
+}
+
+impl<'t, 'e> Scanner<'t, 'e> {
+    /// A scanner for `range` of `text`, whose ends are `ends`.
+    pub(super) fn new(text: &'t str, range: Range<usize>, ends: &'e Ends<'t>) -> Self {
         let text = text.get(..range.end).unwrap_or(text);
         Self {
             text,
             at: range.start,
+            ends,
         }
-    }
-
-    /// The next word, after blanks and comments; nothing is consumed.
-    pub(super) fn word(&mut self) -> Option<&'t str> {
-        self.skip();
-        let word = self.text.get(self.at..name_end(self.text, self.at))?;
-        (!word.is_empty()).then_some(word)
     }
 
     /// The next component. Text between components, such as `IE_VER := 2.11;`,
     /// is passed over.
     pub(super) fn component(&mut self) -> Option<Component<'t>> {
         loop {
-            let word = match self.word() {
-                Some(word) => word,
-                None if self.at >= self.text.len() => return None,
-                None => {
-                    self.pass_character();
-                    continue;
-                }
-            };
+            self.at = skip_comments(self.text, self.at);
             let start = self.at;
+            let word = self.text.get(start..name_end(self.text, start))?;
+            if word.is_empty() {
+                if start >= self.text.len() {
+                    return None;
+                }
+                self.pass_character();
+                continue;
+            }
             self.at += word.len();
             let is_component = word.bytes().all(|b| b.is_ascii_uppercase() || b == b'_');
             let assigned = self.rest().trim_start().starts_with(":=");
-            if !is_component || word.starts_with("END_") || assigned {
+            if !is_component || word.starts_with(END) || assigned {
                 continue;
             }
             return Some(self.component_after(word, start));
@@ -101,47 +149,26 @@ impl<'t> Scanner<'t> {
             self.at = (close + 1).min(self.text.len());
         }
         let inside_start = self.at;
-        let (inside_end, end) = self.end_of(word);
-        self.at = end;
+        let end = self.ends.find(word, inside_start..self.text.len());
+        let inside_end = end.unwrap_or(self.text.len());
+        self.at = match end {
+            Some(end) => end + END.len() + word.len(),
+            None if is_known(word) => self.text.len(),
+            None => inside_start,
+        };
         Component {
             word,
             name,
             attributes,
             inside: inside_start..inside_end,
-            place: start..end,
-            ended: inside_end < end,
+            place: start..self.at,
+            ended: end.is_some() || !is_known(word),
         }
-    }
-
-    /// Where what is inside a component ends, and where the component does:
-    /// before and after its `END_` word, else both at the end.
-    fn end_of(&self, word: &str) -> (usize, usize) {
-        let end_word = format!("END_{word}");
-        // Structured text and encoded data hold quotes that nothing closes; an end
-        // word in them counts at the beginning of a line only.
-        let raw = !matches!(word, "CONTROLLER" | "PROGRAM" | "ROUTINE" | "TAG");
-        let mut at = self.at;
-        while let Some(found) = self.next_end(&end_word, at) {
-            let after = found + end_word.len();
-            let whole = name_end(self.text, found) == after;
-            let line = self.text[self.at..found].trim_end_matches([' ', '\t']);
-            let begins_line = line.is_empty() || line.ends_with(['\n', '\r']);
-            if whole && (begins_line || !raw && line.ends_with([';', ')'])) {
-                return (found, after);
-            }
-            at = after;
-        }
-        (self.text.len(), self.text.len())
-    }
-
-    fn next_end(&self, end_word: &str, from: usize) -> Option<usize> {
-        let found = self.text.get(from..)?.find(end_word)?;
-        Some(from + found)
     }
 
     /// The next statement, up to and with its `;`.
     pub(super) fn statement(&mut self) -> Option<Range<usize>> {
-        self.skip();
+        self.at = skip_comments(self.text, self.at);
         let start = self.at;
         while let Some(character) = self.rest().chars().next() {
             match character {
@@ -164,18 +191,42 @@ impl<'t> Scanner<'t> {
     fn pass_character(&mut self) {
         self.at += self.rest().chars().next().map_or(1, char::len_utf8);
     }
+}
 
-    /// Passes blanks and comments `(* ... *)`.
-    fn skip(&mut self) {
-        loop {
-            self.at = skip_blanks(self.text, self.at);
-            if !self.rest().starts_with("(*") {
-                return;
-            }
-            let length = self.rest().find("*)").map(|end| end + 2);
-            self.at += length.unwrap_or(self.rest().len());
-        }
+/// The first word of `text` after blanks and comments.
+pub(super) fn first_word(text: &str) -> &str {
+    let start = skip_comments(text, 0);
+    text.get(start..name_end(text, start)).unwrap_or_default()
+}
+
+/// The place after blanks and comments `(* ... *)`.
+fn skip_comments(text: &str, from: usize) -> usize {
+    let mut at = skip_blanks(text, from);
+    while let Some(comment) = text.get(at..).filter(|rest| rest.starts_with("(*")) {
+        let length = comment.find("*)").map_or(comment.len(), |end| end + 2);
+        at = skip_blanks(text, at + length);
     }
+    at
+}
+
+/// Whether a component of this kind is read, and so must end. An unknown word
+/// without an end is passed over alone.
+fn is_known(word: &str) -> bool {
+    matches!(
+        word,
+        "CONTROLLER"
+            | "PROGRAM"
+            | "ADD_ON_INSTRUCTION_DEFINITION"
+            | "TAG"
+            | "PARAMETERS"
+            | "LOCAL_TAGS"
+            | "ROUTINE"
+            | "ST_ROUTINE"
+            | "FBD_ROUTINE"
+            | "SFC_ROUTINE"
+            | "ENCODED_DATA"
+            | "TASK"
+    )
 }
 
 /// Whether a name follows the word of a component.

@@ -13,7 +13,7 @@ use super::super::data;
 use super::super::neutral::{name_end, skip_blanks, trimmed};
 use super::super::operand;
 use super::super::project::Tag;
-use super::scanner::{Scanner, attributes_in, closing};
+use super::scanner::{attributes_in, closing};
 use crate::Class;
 use crate::reading::Source;
 
@@ -24,21 +24,24 @@ pub(super) struct Parameters {
     pub(super) passed: Vec<(String, Class)>,
 }
 
-/// The tags declared in `range`; `class` is what a tag without a usage is for.
-pub(super) fn tags(source: Source<'_>, range: Range<usize>, class: Class) -> Vec<Tag> {
-    statements(source, range)
-        .filter_map(|statement| tag(source, statement, class))
+/// The tags that `statements` declare.
+pub(super) fn tags(source: Source<'_>, statements: impl Iterator<Item = Range<usize>>) -> Vec<Tag> {
+    statements
+        .filter_map(|statement| tag(source, statement, Class::Internal))
         .map(|(tag, _)| tag)
         .collect()
 }
 
-/// The parameters declared in `range`.
-pub(super) fn parameters(source: Source<'_>, range: Range<usize>) -> Parameters {
+/// The parameters that `statements` declare.
+pub(super) fn parameters(
+    source: Source<'_>,
+    statements: impl Iterator<Item = Range<usize>>,
+) -> Parameters {
     let mut parameters = Parameters {
         tags: Vec::new(),
         passed: Vec::new(),
     };
-    for statement in statements(source, range) {
+    for statement in statements {
         let Some((tag, attributes)) = tag(source, statement, Class::Unknown) else {
             continue;
         };
@@ -51,12 +54,8 @@ pub(super) fn parameters(source: Source<'_>, range: Range<usize>) -> Parameters 
     parameters
 }
 
-fn statements(source: Source<'_>, range: Range<usize>) -> impl Iterator<Item = Range<usize>> {
-    let mut scanner = Scanner::new(source.text, range);
-    std::iter::from_fn(move || scanner.statement())
-}
-
-/// The tag that a statement declares, with its attributes.
+/// The tag that a statement declares, with its attributes; `class` is what a tag
+/// without a usage is for.
 fn tag(
     source: Source<'_>,
     statement: Range<usize>,

@@ -46,7 +46,7 @@ fn fill<'t>(project: &mut Project<'t>, root: Element<'_, 't>) {
     if root.attribute_is("TargetType", "DataType") {
         return;
     }
-    let everything = !root.descendants().any(is_target);
+    let everything = !names_target(controller);
     let subject = Subject {
         whole: everything || is_target(controller),
     };
@@ -79,6 +79,26 @@ impl Subject {
             whole: self.whole || is_target(element),
         }
     }
+}
+
+/// Whether something that holds rungs is marked as the target. Files that other
+/// tools wrote may mark nothing; then all of them is meant.
+fn names_target(controller: Element<'_, '_>) -> bool {
+    let mut definitions = inside(
+        controller,
+        "AddOnInstructionDefinitions",
+        "AddOnInstructionDefinition",
+    );
+    let mut programs = inside(controller, "Programs", "Program");
+    is_target(controller)
+        || definitions.any(is_target)
+        || programs.any(|program| {
+            is_target(program)
+                || inside(program, "Routines", "Routine").any(|routine| {
+                    let mut rungs = inside(routine, "RLLContent", "Rung");
+                    is_target(routine) || rungs.any(is_target)
+                })
+        })
 }
 
 fn is_target(element: Element<'_, '_>) -> bool {
@@ -161,6 +181,15 @@ fn add_routines<'t>(
         let routine_name = name(routine, "Name");
         unit.routine_names.push(routine_name.clone());
         let subject = subject.inside(routine);
+        let is_empty = routine.children().all(|body| body.name() == "Description");
+        if subject.whole && is_empty && routine.attribute_is("Type", "RLL") {
+            unit.routines.push(RoutineSource {
+                name: routine_name,
+                rungs: Vec::new(),
+                span: routine.span(),
+            });
+            continue;
+        }
         let scope = format!("{}/{routine_name}", unit.name);
         for body in routine.children() {
             match body.name() {
