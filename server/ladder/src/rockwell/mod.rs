@@ -11,10 +11,13 @@
 //!
 //! [`project`] is what the formats have in common; [`neutral`] is the grammar of
 //! rungs; [`catalogue`] knows the instructions; [`names`] gives each variable one
-//! name; [`rung`] and [`instruction`] draw networks.
+//! name; [`rung`] draws networks, [`instruction`], [`values`] and [`boxes`] what
+//! stands on them.
 
+mod boxes;
 mod catalogue;
 mod data;
+mod declarations;
 mod instruction;
 mod l5k;
 mod l5x;
@@ -26,6 +29,7 @@ mod passage;
 mod program;
 mod project;
 mod rung;
+mod values;
 mod xml;
 
 use crate::reading::{Reading, Source};

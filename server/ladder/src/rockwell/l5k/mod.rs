@@ -54,12 +54,17 @@ pub(super) fn read(source: Source<'_>) -> Reading {
         source,
         project: Project::empty(Format::L5k),
         ends: &ends,
+        missing_end: None,
         loose: Unit::empty(UnitKind::Program { main: None }, String::new()),
     };
     file.components(0..source.text.len());
     let File {
-        mut project, loose, ..
+        mut project,
+        loose,
+        missing_end,
+        ..
     } = file;
+    project.diagnostics.extend(missing_end);
     if !loose.routines.is_empty() {
         project.units.push(loose);
     }
@@ -70,6 +75,7 @@ pub(super) fn read(source: Source<'_>) -> Reading {
 struct File<'t, 'e> {
     source: Source<'t>,
     ends: &'e Ends<'t>,
+    missing_end: Option<Diagnostic>,
     project: Project<'t>,
     /// Routines that stand in no program.
     loose: Unit<'t>,
@@ -227,19 +233,20 @@ impl<'t> File<'t, '_> {
         }
     }
 
+    /// Reports a component without an end; of several, one in the other, the
+    /// innermost, where the text breaks off.
     fn report_missing_end(&mut self, component: &Component<'t>) {
         if component.ended {
             return;
         }
         let start = component.place.start;
         let message = format!(
-            "the file ends inside `{} {}`: there is no `END_{}`",
+            "`{} {}` has no `END_{}`",
             component.word, component.name, component.word
         );
         let place = self.source.span(start, start + component.word.len());
-        self.project.diagnostics.push(
-            Diagnostic::new(codes::CUT_SHORT, place, message)
-                .help("copy or export the file again; what was complete is read"),
-        );
+        let diagnostic = Diagnostic::new(codes::CUT_SHORT, place, message)
+            .help("copy or export the file again; what was complete is read");
+        self.missing_end = Some(diagnostic);
     }
 }

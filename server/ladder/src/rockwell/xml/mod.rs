@@ -3,17 +3,22 @@
 //! Not a general library: no namespaces, no entities but the five of XML
 //! itself, no comments kept. What it adds to the pull reader is what a ladder
 //! file needs: every element's bytes, text that maps back to the file
-//! ([`Passage`]), and a tree that survives a file that was cut short: elements
+//! ([`Passage`](super::passage::Passage)), and a tree that survives a file that was cut short: elements
 //! that never ended are there, marked as incomplete.
 
-use std::borrow::Cow;
+mod attributes;
+mod element;
+
 use std::ops::Range;
 
 use quick_xml::events::{BytesRef, Event};
 use quick_xml::{Error, Reader};
 use source::{Diagnostic, Span, codes};
 
-use super::passage::Passage;
+use attributes::Attributes;
+
+pub(super) use element::Element;
+
 use crate::reading::Source;
 
 /// Deepest nesting that is read. Exports stay below 30.
@@ -44,13 +49,6 @@ enum NodeKind {
     Element { name_length: usize, complete: bool },
     Text,
     Character(char),
-}
-
-/// An element of a document.
-#[derive(Clone, Copy)]
-pub(super) struct Element<'d, 't> {
-    document: &'d Document<'t>,
-    at: usize,
 }
 
 /// Reads `source`; what is wrong with it is added to `diagnostics`, and what
@@ -242,7 +240,7 @@ impl<'t> Document<'t> {
             "the file ends inside the element `{}`, which began here",
             self.name_at(element)
         );
-        let tag = self.source.span(node.start, node.inner_end);
+        let tag = self.source.span(node.start, node.inner_end + 1);
         Box::new(
             Diagnostic::new(codes::CUT_SHORT, tag, message)
                 .help("copy or export the file again; what was complete is read"),
@@ -285,129 +283,6 @@ impl Node {
     }
 }
 
-impl<'d, 't> Element<'d, 't> {
-    /// The tag's name, without a namespace prefix.
-    pub(super) fn name(self) -> &'t str {
-        let name = self.document.name_at(self.at);
-        name.rsplit(':').next().unwrap_or(name)
-    }
-
-    /// Whether its end tag was there.
-    pub(super) fn is_complete(self) -> bool {
-        matches!(self.node().kind, NodeKind::Element { complete: true, .. })
-    }
-
-    /// The value of an attribute. Its name is compared without case: tools
-    /// other than Rockwell's write `use` and `Datatype`.
-    pub(super) fn attribute(self, name: &str) -> Option<Cow<'t, str>> {
-        let NodeKind::Element { name_length, .. } = self.node().kind else {
-            return None;
-        };
-        let tag = self.inner();
-        let (_, value) =
-            Attributes::of(tag, name_length).find(|(key, _)| key.eq_ignore_ascii_case(name))?;
-        let value = tag.get(value)?;
-        Some(quick_xml::escape::unescape(value).unwrap_or(Cow::Borrowed(value)))
-    }
-
-    /// Whether an attribute has this value, both compared without case.
-    pub(super) fn attribute_is(self, name: &str, value: &str) -> bool {
-        self.attribute(name)
-            .is_some_and(|found| found.eq_ignore_ascii_case(value))
-    }
-
-    /// The elements directly inside.
-    pub(super) fn children(self) -> impl Iterator<Item = Element<'d, 't>> {
-        let document = self.document;
-        self.inside()
-            .filter(|&at| document.nodes[at].is_element())
-            .map(move |at| Element { document, at })
-    }
-
-    /// The elements directly inside that have this name, compared without case.
-    pub(super) fn children_named(self, name: &str) -> impl Iterator<Item = Element<'d, 't>> {
-        self.children()
-            .filter(move |child| child.name().eq_ignore_ascii_case(name))
-    }
-
-    /// The first element directly inside that has this name.
-    pub(super) fn child(self, name: &str) -> Option<Element<'d, 't>> {
-        self.children_named(name).next()
-    }
-
-    /// Itself and all elements inside it, in the order of the text. The depth of
-    /// a document is bounded, and so is this walk's memory.
-    pub(super) fn descendants(self) -> impl Iterator<Item = Element<'d, 't>> {
-        let document = self.document;
-        // What follows an element that never ended is all inside it.
-        let end = if self.is_complete() {
-            self.node().end
-        } else {
-            usize::MAX
-        };
-        document.nodes[self.at..]
-            .iter()
-            .take_while(move |node| node.start < end)
-            .enumerate()
-            .filter(|(_, node)| node.is_element())
-            .map(move |(after, _)| Element {
-                document,
-                at: self.at + after,
-            })
-    }
-
-    /// The text directly inside.
-    pub(super) fn passage(self) -> Passage<'t> {
-        let document = self.document;
-        let source = document.source;
-        let mut passage = Passage::empty(source.base + self.node().inner_end);
-        for at in self.inside() {
-            let node = &document.nodes[at];
-            let place = source.span(node.inner_start, node.inner_end);
-            match node.kind {
-                NodeKind::Text => {
-                    let text = source.text.get(node.inner_start..node.inner_end);
-                    passage.push(text.unwrap_or_default(), place);
-                }
-                NodeKind::Character(character) => passage.push_character(character, place),
-                NodeKind::Element { .. } => {}
-            }
-        }
-        passage
-    }
-
-    /// The bytes of the element, tags included.
-    pub(super) fn span(self) -> Span {
-        self.document
-            .source
-            .span(self.node().start, self.node().end)
-    }
-
-    /// The bytes of the start tag.
-    pub(super) fn tag_span(self) -> Span {
-        let node = self.node();
-        let source = self.document.source;
-        let rest = source.text.get(node.inner_end..).unwrap_or_default();
-        let closing = if rest.starts_with("/>") { 2 } else { 1 };
-        source.span(node.start, node.inner_end + closing)
-    }
-
-    fn inside(self) -> impl Iterator<Item = usize> {
-        let document = self.document;
-        std::iter::successors(self.node().first_child, move |&at| document.nodes[at].next)
-    }
-
-    fn inner(self) -> &'t str {
-        let node = self.node();
-        let range = node.inner_start..node.inner_end;
-        self.document.source.text.get(range).unwrap_or_default()
-    }
-
-    fn node(self) -> &'d Node {
-        &self.document.nodes[self.at]
-    }
-}
-
 /// The character that `&amp;` or `&#38;` stands for.
 fn character(entity: &BytesRef<'_>) -> Option<char> {
     if entity.is_char_ref() {
@@ -421,61 +296,6 @@ fn character(entity: &BytesRef<'_>) -> Option<char> {
         "quot" => Some('"'),
         _ => None,
     }
-}
-
-/// Attributes of a tag as name and place of the value, found one after the
-/// other: `Name="Start" Type='N'`.
-struct Attributes<'t> {
-    tag: &'t str,
-    at: usize,
-    /// Where something that is no attribute stands.
-    fault: Option<usize>,
-}
-
-impl<'t> Attributes<'t> {
-    fn of(tag: &'t str, name_length: usize) -> Self {
-        Self {
-            tag,
-            at: name_length,
-            fault: None,
-        }
-    }
-}
-
-impl<'t> Iterator for Attributes<'t> {
-    type Item = (&'t str, Range<usize>);
-
-    fn next(&mut self) -> Option<Self::Item> {
-        let rest = self.tag.get(self.at..)?;
-        let trimmed = rest.trim_start();
-        if trimmed.is_empty() || self.fault.is_some() {
-            return None;
-        }
-        let start = self.at + (rest.len() - trimmed.len());
-        let found = attribute(trimmed);
-        let Some((name, value, length)) = found else {
-            self.fault = Some(start);
-            return None;
-        };
-        self.at = start + length;
-        Some((name, start + value.start..start + value.end))
-    }
-}
-
-/// The attribute that `text` begins with: its name, the place of its value and
-/// the length of it all.
-fn attribute(text: &str) -> Option<(&str, Range<usize>, usize)> {
-    let equals = text.find('=')?;
-    let name = text.get(..equals)?.trim_end();
-    if name.is_empty() || name.contains(|c: char| c.is_whitespace() || c == '"' || c == '\'') {
-        return None;
-    }
-    let after = text.get(equals + 1..)?;
-    let value = after.trim_start();
-    let quote = value.chars().next().filter(|c| matches!(c, '"' | '\''))?;
-    let start = text.len() - value.len() + 1;
-    let length = text.get(start..)?.find(quote)?;
-    Some((name, start..start + length, start + length + 1))
 }
 
 #[cfg(test)]
