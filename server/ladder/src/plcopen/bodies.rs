@@ -10,7 +10,8 @@ use logic::Name;
 use source::{Diagnostic, Span, codes};
 
 use super::chart;
-use super::diagram::{self, Diagram, Node, NodeKind};
+use super::diagram::{Diagram, Node, NodeKind};
+use super::drawing;
 use super::interface::{Unit, UnitKind, name_of};
 use super::names::Names;
 use super::network::{self, Body};
@@ -134,19 +135,19 @@ impl UnitReading<'_, '_, '_, '_> {
                 rungs.len() > before
             }
             "ST" | "IL" => {
-                self.other_language(tag, tag.name());
+                self.other_language(place, tag, tag.name());
                 false
             }
             "addData" if !tag.inside(&|tag| tag.name() == "CFC").is_empty() => {
-                self.other_language(tag, "CFC");
+                self.other_language(place, tag, "CFC");
                 false
             }
             _ => false,
         }
     }
 
-    fn other_language(&mut self, tag: Tag<'_, '_>, language: &str) {
-        let message = format!("this body of `{}` is written in {language}", self.unit.name);
+    fn other_language(&mut self, place: &Place, tag: Tag<'_, '_>, language: &str) {
+        let message = format!("the body of `{}` is written in {language}", place.scope);
         self.project.diagnostics.push(
             Diagnostic::new(codes::OTHER_LANGUAGE, tag.span(), message)
                 .help("variables that it writes are taken as inputs"),
@@ -173,7 +174,7 @@ impl UnitReading<'_, '_, '_, '_> {
         tag: Tag<'_, '_>,
         rungs: &mut Vec<Rung>,
     ) -> HashMap<Span, Name> {
-        let mut diagram = diagram::read(tag, self.project.diagnostics);
+        let mut diagram = drawing::read(tag, self.project.diagnostics);
         if place.condition {
             diagram.right_rail_is_condition();
         }

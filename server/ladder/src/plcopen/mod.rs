@@ -7,10 +7,12 @@
 //! * [`xml`]: the text as a tree that knows its bytes;
 //! * [`interface`]: units (POUs) and what they declare;
 //! * [`names`]: one name for every variable, through case, scope and address;
-//! * [`diagram`]: the elements of a body and their connections;
+//! * [`drawing`]: the elements of a body and their connections, a [`diagram`];
 //! * [`rungs`]: which elements make a rung, and the order of solving;
-//! * [`network`] and [`boxes`]: rungs as the model's power flow, with the
-//!   catalogue [`standard`] and the terms of [`signal`] and [`expression`];
+//! * [`network`]: rungs as the model's power flow; [`elements`] without pins,
+//!   and [`boxes`] by the catalogue [`standard`]: those with a [`memory`],
+//!   [`gates`], [`functions`], [`opaque`] ones;
+//! * [`signal`] and [`expression`]: what flows, as power or as a term;
 //! * [`chart`]: sequential function charts, as drawn;
 //! * [`bodies`]: all of this for each body of a unit.
 //!
@@ -21,10 +23,16 @@ mod bodies;
 mod boxes;
 mod chart;
 mod diagram;
+mod drawing;
+mod elements;
 mod expression;
+mod functions;
+mod gates;
 mod interface;
+mod memory;
 mod names;
 mod network;
+mod opaque;
 mod rungs;
 mod signal;
 mod standard;

@@ -18,7 +18,7 @@ use super::expression;
 use super::interface::{Globals, Owner, Structure, Unit, UnitKind, Variable};
 use super::standard;
 use crate::{Declaration, Declarations};
-use source::{Diagnostic, Span, codes};
+use source::{Diagnostic, Severity, Span, codes};
 
 /// The type of a step: it has the members `X` and `T`.
 const STEP: &str = "STEP";
@@ -149,6 +149,14 @@ impl Names {
                     self.declare(variable, name, declarations)
                 }
             };
+            if let Some(address) = variable.address.as_deref().and_then(address_key) {
+                match places.get(&address) {
+                    Some(first) => diagnostics.push(one_address(variable, &symbol.name, *first)),
+                    None => {
+                        places.insert(address, variable.span);
+                    }
+                }
+            }
             scope.symbols.insert(bare, symbol);
         }
         let implied = |data_type: &str, list: &[Name]| {
@@ -369,6 +377,16 @@ impl Names {
         }
         None
     }
+}
+
+fn one_address(variable: &Variable, other: &str, first: Span) -> Diagnostic {
+    let address = variable.address.as_deref().unwrap_or_default();
+    let message = format!("`{}` lies at {address}, as `{other}` does", variable.name);
+    let mut diagnostic = Diagnostic::new(codes::DECLARED_TWICE, variable.span, message)
+        .help("give it an address of its own; until then both are one variable")
+        .related(first, "declared there first");
+    diagnostic.severity = Severity::Warning;
+    diagnostic
 }
 
 /// Names that more than one unit declares for itself. Variables at the same
