@@ -12,7 +12,7 @@ use source::{Diagnostic, Severity};
 
 use crate::file::{self, Unreadable};
 use crate::input::{self, Candidate, Origin, numbered};
-use crate::io::{Io, is_standard_input};
+use crate::io::Io;
 use crate::report::{self, Findings};
 use crate::status::Status;
 
@@ -114,11 +114,11 @@ fn lay_out(args: &Args, candidate: &Candidate, io: &mut Io) -> Outcome {
     if diagnostics.iter().any(is_error) {
         return Outcome::Faulty(Findings::new(path.clone(), bytes, diagnostics));
     }
-    if is_standard_input(path) && !args.check && !args.json {
+    if candidate.is_standard_input() && !args.check && !args.json {
         Outcome::Printed(new)
     } else if old == new {
         Outcome::Unchanged
-    } else if args.check || is_standard_input(path) {
+    } else if args.check || candidate.is_standard_input() {
         Outcome::WouldChange { old, new }
     } else {
         match file::replace(path, new.as_bytes()) {
