@@ -1,5 +1,7 @@
 use std::sync::Arc;
 
+use crate::notation::milliseconds;
+
 /// A variable's name, shared by everything that mentions it.
 pub type Name = Arc<str>;
 
@@ -188,8 +190,11 @@ impl Expr {
 }
 
 /// The number that a term writes, if it is one: `5`, `-2.5`, `16#F000`,
-/// `2#1010`, digits grouped by `_`.
+/// `2#1010`, digits grouped by `_`; a time counts its milliseconds.
 fn number(term: &str) -> Option<f64> {
+    if let Some(time) = milliseconds(term) {
+        return Some(time as f64);
+    }
     let plain: String = term.trim().chars().filter(|&c| c != '_').collect();
     if let Some((base, digits)) = plain.split_once('#') {
         let base = base.parse().ok().filter(|base| (2..=36).contains(base))?;

@@ -147,9 +147,41 @@ fn comparisons_and_edges_print_as_they_are_read() {
         "\"Local:1:I.Data.0\"*/X.3",
         "/(/(a*b))",
         "(Index = 10) + \"R[2]\" <> -3",
+        "t1.ET >= 1m30s",
+        "\"3rd floor\" = 3",
     ] {
         let read = notation::parse(text).unwrap();
         let once = notation::write(&read);
         assert_eq!(notation::parse(&once).unwrap(), read, "{text} -> {once}");
     }
+}
+
+#[test]
+fn every_part_knows_the_bytes_it_was_written_in() {
+    let text = "  /(a*(b)) + (c > 5)";
+    let node = notation::expression(&mut notation::Lexer::new(text)).unwrap();
+    assert_eq!(&text[node.span.range()], "/(a*(b)) + (c > 5)");
+    let notation::NodeKind::Or(parts) = &node.kind else {
+        panic!("a sum: {node:?}");
+    };
+    let written: Vec<_> = parts.iter().map(|part| &text[part.span.range()]).collect();
+    assert_eq!(written, ["/(a*(b))", "c > 5"]);
+    let mut names = Vec::new();
+    node.each_name(&mut |name, span| names.push((name.to_string(), &text[span.range()])));
+    let expected = ["a", "b", "c"].map(|name| (name.to_owned(), name));
+    assert_eq!(names, expected);
+}
+
+#[test]
+fn a_problem_says_what_was_expected_and_what_stands_there() {
+    let problem = |text| notation::parse(text).unwrap_err().message;
+    assert_eq!(
+        problem("a*"),
+        "expected a name, `/` or `(`, found the end of the text"
+    );
+    assert_eq!(problem("(a b)"), "expected `)` or an operator, found `b`");
+    assert_eq!(
+        problem("a*\"b"),
+        "expected a name, `/` or `(`, found a quote that does not end on its line"
+    );
 }

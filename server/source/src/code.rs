@@ -116,6 +116,7 @@ pub mod codes {
         FALLS_IN_ITSELF = 2009, Warning, "rung falls in its own coil";
         INTERLOCK_NEVER_RELEASES = 2010, Warning, "interlock that can never release";
         UNREACHABLE_RUNG = 2011, Warning, "rung is never solved";
+        CALL_NOT_FOLLOWED = 2012, Warning, "call not followed";
         TOO_LARGE = 2013, Warning, "condition too large";
         BACKWARD_JUMP = 2014, Warning, "jump backwards";
         WRITTEN_AS_A_WORD = 2015, Hint, "bits written through their word";

@@ -177,6 +177,8 @@ pub struct Lexer<'t> {
     text: &'t str,
     tokens: Vec<Token>,
     next: usize,
+    end: usize,
+    end_name: &'static str,
 }
 
 impl<'t> Lexer<'t> {
@@ -193,6 +195,22 @@ impl<'t> Lexer<'t> {
             text,
             tokens,
             next: 0,
+            end: text.len(),
+            end_name: "the end of the text",
+        }
+    }
+
+    /// Reads some of the tokens of `text` as if they were all: one statement
+    /// of it, say, without the comments and line ends inside. Places still
+    /// count from the first byte of `text`.
+    pub fn over(text: &'t str, tokens: Vec<Token>) -> Self {
+        let end = tokens.last().map_or(0, |token| token.span.range().end);
+        Self {
+            text,
+            tokens,
+            next: 0,
+            end,
+            end_name: "the end of the statement",
         }
     }
 
@@ -240,17 +258,49 @@ impl<'t> Lexer<'t> {
         }
     }
 
-    /// Where the next token begins, or where the text ends.
+    /// Where the next token stands, or where the tokens end.
     pub fn here(&self) -> Span {
         match self.peek() {
             Some(token) => token.span,
-            None => Span::at(self.text.len()),
+            None => Span::at(self.end),
         }
+    }
+
+    /// The next token, or the end, as a message names it: `found {found}`.
+    pub fn found(&self) -> String {
+        let Some(token) = self.peek() else {
+            return self.end_name.to_owned();
+        };
+        let text = token.text(self.text);
+        match token.kind {
+            TokenKind::Unknown if text.starts_with('"') => {
+                "a quote that does not end on its line".to_owned()
+            }
+            TokenKind::Name
+            | TokenKind::Quoted
+            | TokenKind::Number
+            | TokenKind::Time
+            | TokenKind::Unknown => format!("`{text}`"),
+            kind => kind.describe().to_owned(),
+        }
+    }
+
+    /// The span from the byte at `start` to the end of the last token taken.
+    pub fn since(&self, start: usize) -> Span {
+        let end = self.previous().map_or(start, |last| last.span.range().end);
+        Span::new(start, end)
     }
 
     /// The last token taken.
     pub fn previous(&self) -> Option<Token> {
-        self.next.checked_sub(1).map(|at| self.tokens[at])
+        self.next
+            .checked_sub(1)
+            .and_then(|at| self.tokens.get(at).copied())
+    }
+
+    /// The tokens taken since a [`mark`](Lexer::mark) of this lexer.
+    pub fn taken_since(&self, mark: usize) -> &[Token] {
+        self.tokens.get(mark..self.next).unwrap_or_default()
     }
 
     /// A mark that [`Lexer::rewind`] goes back to.

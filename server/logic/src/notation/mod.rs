@@ -9,7 +9,8 @@
 //!            | time "/" step | name
 //! edge       = "rise" "(" expression ")" | "fall" "(" expression ")"
 //!            | "^" factor
-//! comparison = value ( "=" | "<>" | "<" | "<=" | ">" | ">=" ) value
+//! comparison = value ( "=" | "<>" | "<" | "<=" | ">" | ">=" ) ( value | time )
+//! value      = name | [ "-" ] number
 //! name       = letter { letter | digit | "_" | "." }, a leading "%" allowed,
 //!              or anything within double quotes
 //! ```
@@ -22,7 +23,9 @@
 mod lexer;
 mod parser;
 mod printer;
+mod time;
 
 pub use lexer::{Lexer, Token, TokenKind};
 pub use parser::{Node, NodeKind, Problem, expression, parse};
 pub use printer::{quoted, write};
+pub use time::milliseconds;

@@ -1,12 +1,13 @@
 use source::Span;
 
+use super::printer::is_literal;
 use super::{Lexer, Token, TokenKind};
 use crate::{Atom, Expr, Name, Relation};
 
 /// A part of an expression with the bytes it was written in.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Node {
-    /// The whole part.
+    /// The whole part, parentheses around it left out.
     pub span: Span,
     /// What it is.
     pub kind: NodeKind,
@@ -82,14 +83,14 @@ impl Node {
     }
 
     /// Calls `visit` with every name and its place, from left to right,
-    /// numbers excluded.
+    /// numbers and times excluded.
     pub fn each_name<'n>(&'n self, visit: &mut impl FnMut(&'n Name, Span)) {
         match &self.kind {
             NodeKind::Constant(_) => {}
             NodeKind::Variable(name) => visit(name, self.span),
             NodeKind::Comparison { left, right, .. } => {
                 for (name, span) in [left, right] {
-                    if !name.starts_with(|c: char| c.is_ascii_digit() || c == '-') {
+                    if !is_literal(name) {
                         visit(name, *span);
                     }
                 }
@@ -143,19 +144,17 @@ fn list(
     part: fn(&mut Lexer<'_>, usize) -> Result<Node, Problem>,
     many: fn(Vec<Node>) -> NodeKind,
 ) -> Result<Node, Problem> {
+    let start = lexer.here().range().start;
     let first = part(lexer, depth)?;
     if lexer.peek_kind() != Some(operator) {
         return Ok(first);
     }
-    let mut span = first.span;
     let mut parts = vec![first];
     while lexer.take_if(operator).is_some() {
-        let next = part(lexer, depth)?;
-        span = span.cover(next.span);
-        parts.push(next);
+        parts.push(part(lexer, depth)?);
     }
     Ok(Node {
-        span,
+        span: lexer.since(start),
         kind: many(parts),
     })
 }
@@ -168,14 +167,14 @@ fn factor(lexer: &mut Lexer<'_>, depth: usize) -> Result<Node, Problem> {
         });
     }
     let Some(token) = lexer.peek() else {
-        return Err(unexpected(lexer, "an expression"));
+        return Err(unexpected(lexer, "a name, `/` or `(`"));
     };
     match token.kind {
         TokenKind::Slash => {
             lexer.take();
             let inner = factor(lexer, depth + 1)?;
             Ok(Node {
-                span: token.span.cover(inner.span),
+                span: lexer.since(token.span.range().start),
                 kind: NodeKind::Not(Box::new(inner)),
             })
         }
@@ -183,18 +182,15 @@ fn factor(lexer: &mut Lexer<'_>, depth: usize) -> Result<Node, Problem> {
             lexer.take();
             let inner = factor(lexer, depth + 1)?;
             Ok(Node {
-                span: token.span.cover(inner.span),
+                span: lexer.since(token.span.range().start),
                 kind: NodeKind::Rise(Box::new(inner)),
             })
         }
         TokenKind::Open => {
             lexer.take();
             let inner = sum(lexer, depth + 1)?;
-            let close = closing(lexer)?;
-            Ok(Node {
-                span: token.span.cover(close.span),
-                kind: inner.kind,
-            })
+            closing(lexer)?;
+            Ok(inner)
         }
         TokenKind::Time => elapsed(lexer, token),
         TokenKind::Name if is_edge(lexer, token) => edge(lexer, token, depth),
@@ -258,7 +254,7 @@ fn operand(lexer: &mut Lexer<'_>) -> Result<Node, Problem> {
     let (left, left_span, is_number) = value(lexer)?;
     if let Some(relation) = lexer.peek_kind().and_then(relation) {
         lexer.take();
-        let (right, right_span, _) = value(lexer)?;
+        let (right, right_span) = right_side(lexer)?;
         return Ok(Node {
             span: left_span.cover(right_span),
             kind: NodeKind::Comparison {
@@ -278,6 +274,14 @@ fn operand(lexer: &mut Lexer<'_>) -> Result<Node, Problem> {
         span: left_span,
         kind,
     })
+}
+
+/// What stands right of a relation: a value, or a time as in `t1.ET > 5s`.
+fn right_side(lexer: &mut Lexer<'_>) -> Result<(Name, Span), Problem> {
+    if let Some(time) = lexer.take_if(TokenKind::Time) {
+        return Ok((time.text(lexer.text()).into(), time.span));
+    }
+    value(lexer).map(|(name, span, _)| (name, span))
 }
 
 fn value(lexer: &mut Lexer<'_>) -> Result<(Name, Span, bool), Problem> {
@@ -317,19 +321,8 @@ fn relation(kind: TokenKind) -> Option<Relation> {
 }
 
 fn unexpected(lexer: &Lexer<'_>, expected: &str) -> Problem {
-    let found = match lexer.peek() {
-        None => "the end of the text".to_owned(),
-        Some(token) => match token.kind {
-            TokenKind::Name
-            | TokenKind::Quoted
-            | TokenKind::Number
-            | TokenKind::Time
-            | TokenKind::Unknown => format!("`{}`", token.text(lexer.text())),
-            kind => kind.describe().to_owned(),
-        },
-    };
     Problem {
         span: lexer.here(),
-        message: format!("expected {expected}, found {found}"),
+        message: format!("expected {expected}, found {}", lexer.found()),
     }
 }

@@ -58,18 +58,24 @@ impl Display for Atom {
     }
 }
 
-/// A side of a comparison: numbers as they are, names quoted where needed.
+/// A side of a comparison: numbers and times as they are, names quoted where
+/// needed.
 fn term(side: &str) -> String {
-    let digits = side.strip_prefix('-').unwrap_or(side);
-    let lexer = Lexer::new(digits);
-    let number = lexer
-        .peek()
-        .is_some_and(|token| token.kind == TokenKind::Number && token.span.len() == digits.len());
-    if number {
+    if is_literal(side) {
         side.to_owned()
     } else {
         quoted(side)
     }
+}
+
+/// Whether a side of a comparison is a number or a time, not a name.
+pub(super) fn is_literal(side: &str) -> bool {
+    let digits = side.strip_prefix('-').unwrap_or(side);
+    Lexer::new(digits).peek().is_some_and(|token| {
+        token.span.len() == digits.len()
+            && (token.kind == TokenKind::Number
+                || token.kind == TokenKind::Time && digits.len() == side.len())
+    })
 }
 
 fn print(expr: &Expr, around: Binding, f: &mut Formatter<'_>) -> fmt::Result {

@@ -1,0 +1,101 @@
+//! Aligns what stands in neighbouring lines: the columns of declarations and
+//! the arrows of rungs. A blank line ends a block; comments do not.
+
+use super::WIDTH;
+use super::piece::{COLUMNS, Piece, width, with_comment};
+
+/// Conditions longer than this do not push the arrows of their neighbours to
+/// the right.
+const WIDEST_CONDITION: usize = 72;
+
+/// All lines of a text.
+pub(super) fn lines(pieces: Vec<Piece>) -> Vec<String> {
+    let mut lines = Vec::new();
+    let mut rest = pieces.as_slice();
+    while let Some(first) = rest.first() {
+        let is_same: fn(&Piece) -> bool = match first {
+            Piece::Declaration(..) => {
+                |piece| matches!(piece, Piece::Declaration(..) | Piece::Comment(_))
+            }
+            Piece::Rung(..) => |piece| matches!(piece, Piece::Rung(..) | Piece::Comment(_)),
+            _ => |_| false,
+        };
+        let many = rest
+            .iter()
+            .take_while(|piece| is_same(piece))
+            .count()
+            .max(1);
+        let (block, others) = rest.split_at(many);
+        rest = others;
+        match first {
+            Piece::Declaration(..) => declarations(block, &mut lines),
+            Piece::Rung(..) => rungs(block, &mut lines),
+            Piece::Blank => lines.push(String::new()),
+            Piece::Comment(comment) => lines.push(comment.clone()),
+            Piece::Lines(all) => lines.extend(all.iter().cloned()),
+            Piece::Left { text, .. } => lines.push(text.clone()),
+        }
+    }
+    lines
+}
+
+fn declarations(block: &[Piece], lines: &mut Vec<String>) {
+    let mut widths = [0; COLUMNS];
+    for piece in block {
+        if let Piece::Declaration(columns, _) = piece {
+            for (widest, column) in widths.iter_mut().zip(columns) {
+                *widest = width(column).max(*widest);
+            }
+        }
+    }
+    for piece in block {
+        match piece {
+            Piece::Declaration(columns, behind) => {
+                let mut line = String::new();
+                for (column, widest) in columns.iter().zip(widths).filter(|(_, widest)| *widest > 0)
+                {
+                    if !line.is_empty() {
+                        line.push(' ');
+                    }
+                    line.push_str(column);
+                    line.extend(std::iter::repeat_n(' ', widest - width(column)));
+                }
+                if behind.is_none() {
+                    line.truncate(line.trim_end().len());
+                }
+                lines.push(with_comment(line, behind.as_deref()));
+            }
+            Piece::Comment(comment) => lines.push(comment.clone()),
+            _ => {}
+        }
+    }
+}
+
+fn rungs(block: &[Piece], lines: &mut Vec<String>) {
+    let widths = block.iter().filter_map(|piece| match piece {
+        Piece::Rung(left, right, _) if !right.is_empty() => Some(width(left)),
+        _ => None,
+    });
+    let widest = widths
+        .filter(|width| *width <= WIDEST_CONDITION)
+        .max()
+        .unwrap_or(0);
+    for piece in block {
+        match piece {
+            Piece::Rung(left, right, behind) => {
+                let mut line = left.clone();
+                let missing = widest.saturating_sub(width(left));
+                if !right.is_empty() {
+                    if widest + 1 + width(right) <= WIDTH {
+                        line.extend(std::iter::repeat_n(' ', missing));
+                    }
+                    line.push(' ');
+                    line.push_str(right);
+                }
+                lines.push(with_comment(line, behind.as_deref()));
+            }
+            Piece::Comment(comment) => lines.push(comment.clone()),
+            _ => {}
+        }
+    }
+}
