@@ -38,6 +38,14 @@ pub fn groups(
     successions: &[Succession],
 ) -> Vec<Group> {
     let mut classes = dependent(conditions, registers);
+    // What hands over depends on each other through the plant, if not through
+    // a contact.
+    for succession in successions {
+        let atoms = (states.find(&succession.from), states.find(&succession.to));
+        if let (Evidence::Handover, (Some(from), Some(to))) = (succession.evidence, atoms) {
+            classes.join(from.atom, to.atom);
+        }
+    }
     let mut members: BTreeMap<usize, Vec<Name>> = BTreeMap::new();
     for state in &states.states {
         let class = classes.class(state.atom);
@@ -174,6 +182,10 @@ struct Classes {
 }
 
 impl Classes {
+    fn join(&mut self, a: AtomId, b: AtomId) {
+        self.union.union(a.0 as usize, b.0 as usize);
+    }
+
     fn class(&mut self, atom: AtomId) -> usize {
         self.union.find_mut(atom.0 as usize)
     }

@@ -24,7 +24,12 @@ pub(super) struct Branch {
     pub(super) joins: BTreeMap<AtomId, Name>,
     /// Where the branch goes when its last state has ended.
     pub(super) end: Name,
+    /// States at which the branches around this one diverged.
+    pub(super) diverged: BTreeSet<AtomId>,
 }
+
+/// Divergences inside each other; beyond this a drawing says nothing.
+const DEEPEST: usize = 6;
 
 impl Branch {
     /// The whole sequence: it ends in its initial step.
@@ -33,7 +38,14 @@ impl Branch {
             foreign: BTreeSet::new(),
             joins: BTreeMap::new(),
             end: start,
+            diverged: BTreeSet::new(),
         }
+    }
+
+    /// Whether a state may not open further branches inside this one: it, or
+    /// too many others, have done so around it.
+    pub(super) fn is_full(&self, state: AtomId) -> bool {
+        self.diverged.contains(&state) || self.diverged.len() >= DEEPEST
     }
 }
 
@@ -46,11 +58,14 @@ pub(super) struct Divergence {
     pub(super) meeting: BTreeSet<AtomId>,
     /// Branches that lead there.
     pub(super) joining: BTreeSet<usize>,
+    /// The state at which they part.
+    origin: AtomId,
 }
 
 impl Divergence {
     /// Sorts the states that each branch can reach.
     pub(super) fn new(
+        origin: AtomId,
         reach: &[BTreeSet<AtomId>],
         followers: &BTreeMap<AtomId, Vec<Vec<AtomId>>>,
     ) -> Self {
@@ -84,6 +99,7 @@ impl Divergence {
             own,
             meeting,
             joining,
+            origin,
         }
     }
 
@@ -109,6 +125,7 @@ impl Divergence {
             foreign,
             joins,
             end,
+            diverged: self.diverged_inside(outer),
         }
     }
 
@@ -123,6 +140,13 @@ impl Divergence {
             foreign,
             joins: outer.joins.clone(),
             end,
+            diverged: self.diverged_inside(outer),
         }
+    }
+
+    fn diverged_inside(&self, outer: &Branch) -> BTreeSet<AtomId> {
+        let mut diverged = outer.diverged.clone();
+        diverged.insert(self.origin);
+        diverged
     }
 }

@@ -9,7 +9,7 @@
 use std::collections::{BTreeMap, BTreeSet, HashMap, VecDeque};
 
 use grafcet::{Chart, Step, Transition};
-use logic::{Atom, AtomId, Budget, Function, Name};
+use logic::{Atom, AtomId, Budget, Function, Name, Stop};
 use petgraph::unionfind::UnionFind;
 
 use super::branches::{Branch, BranchId, Divergence};
@@ -19,7 +19,7 @@ use super::wording::Wording;
 use crate::Analysis;
 use crate::registers::is_first_scan;
 use crate::states::State;
-use crate::successions::handed_over;
+use crate::successions::{handed_over, started_apart};
 
 /// A sequence, planned but not yet worded.
 pub(super) struct Plan {
@@ -218,7 +218,12 @@ impl<'b> Builder<'b> {
             };
             let condition = self.with_all_off(&state.turns_on, &members);
             let target = self.step_of(atom, BranchId::ROOT);
-            self.arc(&start, &[start.clone()], vec![target], condition);
+            self.arc(
+                &start,
+                std::slice::from_ref(&start),
+                vec![target],
+                condition,
+            );
         }
     }
 
@@ -363,10 +368,10 @@ impl<'b> Builder<'b> {
             })
             .restrict(atom, true);
         if self.accepted.ends.contains(&atom) {
-            self.arc(&step, &[step.clone()], Vec::new(), leave);
+            self.arc(&step, std::slice::from_ref(&step), Vec::new(), leave);
         } else if all.is_empty() {
             let end = self.branches[branch.0].end.clone();
-            self.arc(&step, &[step.clone()], vec![end], leave);
+            self.arc(&step, std::slice::from_ref(&step), vec![end], leave);
         } else if forks.is_empty() {
             self.alternatives(state, branch, &step, &singles, leave);
         } else {
@@ -388,7 +393,7 @@ impl<'b> Builder<'b> {
                 .filter(|to| !foreign.contains(to) && *to != atom)
                 .collect();
             here.dedup();
-            if here.len() > 1 && company.is_empty() {
+            if here.len() > 1 && company.is_empty() && !self.branches[branch.0].is_full(atom) {
                 company = here;
             } else {
                 singles.extend(here);
@@ -409,16 +414,17 @@ impl<'b> Builder<'b> {
         leave: Function,
     ) {
         let followers: Vec<&State> = followers.iter().filter_map(|a| self.state(*a)).collect();
-        if self.start_as_it_ends(state, &followers, &leave) {
+        if self.start_as_it_ends(state, &followers) {
             for follower in followers {
-                let condition = handed_over(state, follower, self.budget)
+                let condition = self
+                    .handed_over(state, follower)
                     .or_else(|| {
                         let starts = follower.turns_on.restrict(state.atom, true);
                         leave.and(&starts, self.budget).ok()
                     })
                     .unwrap_or_else(|| leave.clone());
                 let target = self.target(follower.atom, branch);
-                self.arc(step, &[step.clone()], vec![target], condition);
+                self.arc(step, std::slice::from_ref(step), vec![target], condition);
             }
             return;
         }
@@ -426,7 +432,7 @@ impl<'b> Builder<'b> {
             &format!("D{}", state.name),
             format!("{} has ended; waits for what follows", state.name),
         );
-        self.arc(step, &[step.clone()], vec![wait.clone()], leave);
+        self.arc(step, std::slice::from_ref(step), vec![wait.clone()], leave);
         for follower in followers {
             self.start_from(&wait, follower, state.atom, branch);
         }
@@ -439,34 +445,60 @@ impl<'b> Builder<'b> {
             .restrict(follower.atom, false)
             .restrict(ended, false);
         let target = self.target(follower.atom, branch);
-        self.arc(wait, &[wait.clone()], vec![target], starts);
+        self.arc(wait, std::slice::from_ref(wait), vec![target], starts);
     }
 
-    /// Whether leaving a state always means starting one of its followers.
-    fn start_as_it_ends(&self, state: &State, followers: &[&State], leave: &Function) -> bool {
-        let starts = followers
-            .iter()
-            .try_fold(Function::constant(false), |sum, follower| {
-                let starts = follower
-                    .turns_on
-                    .restrict(state.atom, true)
-                    .restrict(follower.atom, false);
-                sum.or(&starts, self.budget)
-            });
-        // As in a handover: not started again at that same moment.
-        let apart = followers.iter().all(|follower| {
-            let mut atoms = state.turns_on.support().iter();
-            atoms.all(|atom| !follower.turns_on.depends_on(*atom))
-        });
-        let quiet = if apart {
-            leave.and_not(&state.turns_on, self.budget)
-        } else {
-            Ok(leave.clone())
+    fn handed_over(&self, from: &State, to: &State) -> Option<Function> {
+        let (states, conditions) = (&self.analysis.states, &self.analysis.conditions);
+        handed_over(from, to, states, conditions, self.budget)
+    }
+
+    /// Whether leaving a state always means starting one of its followers, in
+    /// the plain form of the conditions, in which a chain's transition bits
+    /// say so, or in the resolved one.
+    fn start_as_it_ends(&self, state: &State, followers: &[&State]) -> bool {
+        let plain = (
+            state.plain_turns_on(),
+            state.plain_deactivation(),
+            followers.iter().map(|f| f.plain_turns_on()).collect(),
+        );
+        let resolved = (
+            state.turns_on.clone(),
+            state.deactivation.clone(),
+            followers.iter().map(|f| f.turns_on.clone()).collect(),
+        );
+        [plain, resolved].into_iter().any(|(again, ends, starts)| {
+            let starts: Vec<Function> = starts;
+            self.covers(state.atom, followers, &again, &ends, &starts) == Ok(true)
+        })
+    }
+
+    fn covers(
+        &self,
+        from: AtomId,
+        followers: &[&State],
+        again: &Function,
+        ends: &Function,
+        starts: &[Function],
+    ) -> Result<bool, Stop> {
+        let situation = |function: &Function| {
+            followers
+                .iter()
+                .fold(function.restrict(from, true), |function, follower| {
+                    function.restrict(follower.atom, false)
+                })
         };
-        match (starts, quiet) {
-            (Ok(starts), Ok(leave)) => leave.implies(&starts, self.budget) == Ok(true),
-            _ => false,
+        let mut ends = situation(ends);
+        // As in a handover: not started again at that same moment.
+        if starts.iter().all(|start| started_apart(again, start)) {
+            ends = ends.and_not(again, self.budget)?;
         }
+        let sum = starts
+            .iter()
+            .try_fold(Function::constant(false), |sum, start| {
+                sum.or(&situation(start), self.budget)
+            })?;
+        ends.implies(&sum, self.budget)
     }
 
     /// An AND divergence: the followers of `company` start together, each in
@@ -487,7 +519,7 @@ impl<'b> Builder<'b> {
             .iter()
             .map(|member| self.reachable(&[*member], &barred))
             .collect();
-        let divergence = Divergence::new(&reach, &self.accepted.followers);
+        let divergence = Divergence::new(state.atom, &reach, &self.accepted.followers);
         let attached = self.attached(company, others, &divergence);
 
         let mut entries = Vec::new();
@@ -530,7 +562,7 @@ impl<'b> Builder<'b> {
                 }
             }
         }
-        self.arc(step, &[step.clone()], entries, leave);
+        self.arc(step, std::slice::from_ref(step), entries, leave);
         self.convergence(state, branch, &outer, &divergence, &inner);
     }
 

@@ -39,6 +39,8 @@ pub struct State {
     pub atom: AtomId,
     /// How it is held.
     pub holding: Holding,
+    /// Its value after a scan, as its rungs have it.
+    pub plain: Function,
     /// Its value after a scan, auxiliary coils and timer laws resolved.
     pub next: Function,
     /// What starts it: `next` with the state off.
@@ -47,6 +49,18 @@ pub struct State {
     pub deactivation: Function,
     /// States whose normally closed contacts stand before its coil.
     pub interlocks: Vec<AtomId>,
+}
+
+impl State {
+    /// What starts it, as its rungs have it.
+    pub fn plain_turns_on(&self) -> Function {
+        self.plain.restrict(self.atom, false)
+    }
+
+    /// What ends it, as its rungs have it.
+    pub fn plain_deactivation(&self) -> Function {
+        self.plain.restrict(self.atom, true).not()
+    }
 }
 
 /// An output that only repeats states: set on some steps, reset on others.
@@ -72,6 +86,7 @@ pub struct States {
     /// Coils that were resolved into the states' conditions.
     pub auxiliaries: Auxiliaries,
     places: HashMap<AtomId, usize>,
+    names: HashMap<Name, usize>,
 }
 
 impl States {
@@ -80,9 +95,14 @@ impl States {
         self.places.get(&atom).map(|&at| &self.states[at])
     }
 
+    /// The place of the state that `atom` is, in [`States::states`].
+    pub fn place(&self, atom: AtomId) -> Option<usize> {
+        self.places.get(&atom).copied()
+    }
+
     /// The state called `name`.
     pub fn find(&self, name: &str) -> Option<&State> {
-        self.states.iter().find(|state| &*state.name == name)
+        self.names.get(name).map(|&at| &self.states[at])
     }
 }
 
@@ -109,7 +129,13 @@ pub fn states(conditions: &Conditions, budget: &Budget) -> States {
         .enumerate()
         .map(|(at, state)| (state.atom, at))
         .collect();
+    let names = states
+        .iter()
+        .enumerate()
+        .map(|(at, state)| (state.name.clone(), at))
+        .collect();
     States {
+        names,
         states,
         stored,
         auxiliaries,
@@ -141,6 +167,7 @@ fn state(
     budget: &Budget,
 ) -> Option<State> {
     let next = variable.next.as_ref().ok()?;
+    let plain = auxiliary::without_copies(next, conditions, budget);
     let next = auxiliaries.resolve(next, conditions, budget);
     let turns_on = next.restrict(variable.atom, false);
     let deactivation = next.restrict(variable.atom, true).not();
@@ -159,6 +186,7 @@ fn state(
         } else {
             Holding::SealIn
         },
+        plain,
         next,
         turns_on,
         deactivation,

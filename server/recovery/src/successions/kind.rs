@@ -10,9 +10,12 @@ use crate::states::{State, States};
 /// The kind proposed for each suggestion, in their order.
 ///
 /// Followers of a state are gathered greedily, strongest evidence first: one
-/// joins the company of those that it can start together with and that it
-/// does not lock out. Who starts in company is AND, who starts alone, or
-/// excludes one of the company, is OR.
+/// joins the company of those that it can start together with, for the same
+/// cause, and that it does not lock out. The cause is a product of what ends
+/// the state: valves and a mixer that all start when the tank is full have
+/// one in common; what starts because the tank is empty again has another.
+/// Who starts in company is AND, who starts alone, or excludes one of the
+/// company, is OR.
 pub(super) fn kinds(
     suggestions: &[(AtomId, AtomId, Evidence, Option<Function>)],
     states: &States,
@@ -24,14 +27,8 @@ pub(super) fn kinds(
         let joins = *evidence == Evidence::Handover
             && members.iter().all(|member| {
                 let (_, other, _, meanwhile) = &suggestions[*member];
-                together(
-                    *to,
-                    condition.as_ref(),
-                    *other,
-                    meanwhile.as_ref(),
-                    states,
-                    budget,
-                )
+                let pair = [(*to, condition.as_ref()), (*other, meanwhile.as_ref())];
+                together(*from, pair, states, budget)
             });
         if joins {
             members.push(at);
@@ -47,21 +44,34 @@ pub(super) fn kinds(
 }
 
 fn together(
-    a: AtomId,
-    starts_a: Option<&Function>,
-    b: AtomId,
-    starts_b: Option<&Function>,
+    from: AtomId,
+    pair: [(AtomId, Option<&Function>); 2],
     states: &States,
     budget: &Budget,
 ) -> bool {
-    let (Some(state_a), Some(state_b)) = (states.state(a), states.state(b)) else {
+    let [(a, Some(starts_a)), (b, Some(starts_b))] = pair else {
+        return false;
+    };
+    let (Some(from), Some(a), Some(b)) = (states.state(from), states.state(a), states.state(b))
+    else {
         return false;
     };
     let locks = |by: &State, other: &State| other.interlocks.contains(&by.atom);
-    let (Some(starts_a), Some(starts_b)) = (starts_a, starts_b) else {
+    !locks(a, b)
+        && !locks(b, a)
+        && starts_a.meets(starts_b, budget) == Ok(true)
+        && have_a_common_cause(from, starts_a, starts_b, budget)
+}
+
+/// Whether both conditions imply one product of what ends the state.
+fn have_a_common_cause(from: &State, a: &Function, b: &Function, budget: &Budget) -> bool {
+    let Ok(causes) = from.deactivation.products(budget) else {
         return false;
     };
-    !locks(state_a, state_b)
-        && !locks(state_b, state_a)
-        && starts_a.meets(starts_b, budget) == Ok(true)
+    causes.iter().any(|cause| {
+        cause.iter().all(|literal| {
+            let literal = Function::literal(literal.atom, literal.positive);
+            a.implies(&literal, budget) == Ok(true) && b.implies(&literal, budget) == Ok(true)
+        })
+    })
 }

@@ -14,7 +14,7 @@ mod shared;
 use logic::{AtomId, Budget, Function, Name};
 
 pub use cubes::cubes;
-pub(crate) use handover::handed_over;
+pub(crate) use handover::{handed_over, started_apart};
 pub use possible::possible;
 
 use crate::conditions::Conditions;
@@ -91,7 +91,7 @@ pub fn ranked(
     budget: &Budget,
 ) -> Vec<Succession> {
     let mut found: Vec<Succession> = registers.iter().flat_map(Register::successions).collect();
-    let handovers = handover::handovers(states, budget);
+    let handovers = handover::handovers(states, conditions, budget);
     let rest = possible::among_states(states, &handovers, budget);
     let mut by_rung: Vec<(AtomId, AtomId, Evidence, Option<Function>)> = handovers
         .into_iter()
