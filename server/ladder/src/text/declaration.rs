@@ -2,7 +2,6 @@
 //! program or a routine.
 
 use logic::notation::{Lexer, Token, TokenKind};
-use source::Span;
 
 use super::findings::{Refusal, expected};
 use crate::Role;
@@ -16,8 +15,8 @@ pub(super) struct DeclarationText {
     pub(super) address: Option<Token>,
     /// Its type.
     pub(super) data_type: Option<Token>,
-    /// Its initial value, one token or a minus and a number.
-    pub(super) initial: Option<Span>,
+    /// Its initial value, and the minus before it.
+    pub(super) initial: Option<(Option<Token>, Token)>,
 }
 
 /// Reads a declaration whose statement begins at the lexer's place.
@@ -111,13 +110,17 @@ fn name_of_type(lexer: &mut Lexer<'_>) -> Result<Token, Refusal> {
     )
 }
 
-fn value(lexer: &mut Lexer<'_>) -> Result<Span, Refusal> {
-    let start = lexer.here().range().start;
-    lexer.take_if(TokenKind::Minus);
-    match lexer.peek_kind() {
-        Some(TokenKind::Number | TokenKind::Time | TokenKind::Name | TokenKind::Quoted) => {
+fn value(lexer: &mut Lexer<'_>) -> Result<(Option<Token>, Token), Refusal> {
+    let minus = lexer.take_if(TokenKind::Minus);
+    match lexer.peek() {
+        Some(token)
+            if matches!(
+                token.kind,
+                TokenKind::Number | TokenKind::Time | TokenKind::Name | TokenKind::Quoted
+            ) =>
+        {
             lexer.take();
-            Ok(lexer.since(start))
+            Ok((minus, token))
         }
         _ => Err(expected(lexer, "a number, a time, a name or a text in quotes").into()),
     }

@@ -71,10 +71,10 @@ pub(super) fn declare(
     let mut declaration = Declaration::new(name, class, place(source, statement.span()));
     declaration.address = address.map(as_name);
     declaration.data_type = written.data_type.map(as_name);
-    declaration.initial = written
-        .initial
-        .and_then(|span| text.get(span.range()))
-        .map(|initial| initial.trim_matches('"').into());
+    declaration.initial = written.initial.map(|(minus, value)| match minus {
+        Some(_) => format!("-{}", value.name(text)).into(),
+        None => as_name(value),
+    });
     declaration.description = statement
         .behind
         .map(|comment| comment_text(text, comment))

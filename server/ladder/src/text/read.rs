@@ -8,7 +8,7 @@ use source::{Diagnostic, Span, codes};
 
 use super::declaration::{self, DeclarationText};
 use super::declare::{Declared, declare};
-use super::findings::syntax;
+use super::findings::expected;
 use super::names::Names;
 use super::network::{network, place};
 use super::rung;
@@ -52,17 +52,8 @@ pub(super) fn understand(text: &str, statement: &Statement) -> (Option<Meaning>,
 }
 
 fn no_statement(lexer: &Lexer<'_>) -> Diagnostic {
-    let finding = syntax(
-        lexer.here(),
-        format!("expected a statement, found {}", lexer.found()),
-    );
-    let word = lexer.peek().map(|token| token.text(lexer.text()));
-    let small = word.unwrap_or_default().to_lowercase();
-    if Keyword::of(&small).is_some() {
-        return finding.help(format!("write `{small}` in small letters"));
-    }
     let words: Vec<_> = WORDS.iter().map(|(word, _)| format!("`{word}`")).collect();
-    finding.help(format!("a statement begins with {}", words.join(", ")))
+    expected(lexer, "a statement").help(format!("a statement begins with {}", words.join(", ")))
 }
 
 /// Reads a whole text.

@@ -82,6 +82,7 @@ pub(super) fn leg(lexer: &mut Lexer<'_>, depth: usize, findings: &mut Vec<Diagno
 /// not.
 fn condition(lexer: &mut Lexer<'_>, depth: usize, findings: &mut Vec<Diagnostic>) -> Condition {
     let start = lexer.here().range().start;
+    let first = lexer.mark();
     let finding = if lexer.peek_kind() == Some(TokenKind::Arrow) {
         expected(lexer, "a condition").help("write `1` for what is always driven: `rung: 1 -> a`")
     } else {
@@ -91,17 +92,36 @@ fn condition(lexer: &mut Lexer<'_>, depth: usize, findings: &mut Vec<Diagnostic>
                 Some(TokenKind::Arrow) => return Condition::Read(node),
                 None if depth == 0 => return Condition::Read(node),
                 Some(TokenKind::Open) => expected(lexer, "an operator or `->`").help(
-                    "boxes stand behind `->`; what they give is read as a name, as in `t1.Q`",
+                    "boxes stand behind `->`, and what they give is read as a name, `t1.Q`; \
+                     values compare as in `level >= 5`",
                 ),
                 _ => expected(lexer, "an operator or `->`"),
             },
         }
     };
     findings.push(finding);
-    while lexer.peek().is_some() && lexer.peek_kind() != Some(TokenKind::Arrow) {
+    skip_condition(lexer, first, depth);
+    Condition::NotRead(lexer.since(start))
+}
+
+/// Passes over what is left of a condition that began at the mark `first`: up
+/// to the arrow, or the parenthesis that closes the leg.
+fn skip_condition(lexer: &mut Lexer<'_>, first: usize, depth: usize) {
+    let count = |kind| {
+        let taken = lexer.taken_since(first).iter();
+        taken.filter(|token| token.kind == kind).count()
+    };
+    let mut open = count(TokenKind::Open).saturating_sub(count(TokenKind::Close));
+    while let Some(kind) = lexer.peek_kind() {
+        match kind {
+            TokenKind::Arrow => return,
+            TokenKind::Close if open == 0 && depth > 0 => return,
+            TokenKind::Close => open = open.saturating_sub(1),
+            TokenKind::Open => open += 1,
+            _ => {}
+        }
         lexer.take();
     }
-    Condition::NotRead(lexer.since(start))
 }
 
 fn rest_of_statement(lexer: &mut Lexer<'_>) -> Span {

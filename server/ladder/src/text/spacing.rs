@@ -104,7 +104,8 @@ impl Scene {
     fn wishes(&self, kind: TokenKind) -> (bool, bool) {
         let previous = self.previous.map(|previous| previous.kind);
         match kind {
-            TokenKind::Comma | TokenKind::Close | TokenKind::Colon => (false, true),
+            TokenKind::Comma => (previous == Some(TokenKind::Comma), true),
+            TokenKind::Close | TokenKind::Colon => (false, true),
             TokenKind::Open => (!self.is_call(), false),
             TokenKind::Star => {
                 let wide = self.in_term() || self.modes.len() == 1 && self.wide_product;

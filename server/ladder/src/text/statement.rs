@@ -1,10 +1,11 @@
 //! Cuts a text into statements, before any of them is understood.
 //!
-//! A statement begins at a line whose first word is a [`Keyword`] and goes on
-//! until the next such line or a blank line. Nothing inside a statement, no
-//! open parenthesis and no quote, can swallow the next one: that is why an
-//! error costs one statement and no more. The price is that a variable called
-//! `input` needs quotes where it begins a line.
+//! A statement begins at a line whose first word is a [`Keyword`]. A rung goes
+//! on until the next such line or a blank line; everything else ends with its
+//! line. Nothing inside a statement, no open parenthesis and no quote, can
+//! swallow the next one: that is why an error costs one statement and no more.
+//! The price is that a variable called `input` needs quotes where it begins a
+//! line.
 
 use logic::notation::{Lexer, Token, TokenKind};
 use source::Span;
@@ -38,10 +39,18 @@ pub(super) const WORDS: &[(&str, Keyword)] = &[
 ];
 
 impl Keyword {
-    /// The keyword that `word` is.
-    pub(super) fn of(word: &str) -> Option<Self> {
-        let (_, keyword) = WORDS.iter().find(|(known, _)| *known == word)?;
-        Some(*keyword)
+    /// The keyword that `word` is, in small or capital letters, and how it is
+    /// written.
+    pub(super) fn of(word: &str) -> Option<(&'static str, Self)> {
+        WORDS
+            .iter()
+            .find(|(known, _)| known.eq_ignore_ascii_case(word))
+            .copied()
+    }
+
+    /// Whether a line without a keyword belongs to the statement above it.
+    fn goes_on(self) -> bool {
+        self == Self::Rung
     }
 }
 
@@ -154,10 +163,11 @@ impl Cutter {
 
     fn code(&mut self, text: &str, first: Token, code: &[Token]) {
         let keyword = match first.kind {
-            TokenKind::Name => Keyword::of(first.text(text)),
+            TokenKind::Name => Keyword::of(first.text(text)).map(|(_, keyword)| keyword),
             _ => None,
         };
-        if keyword.is_some() {
+        let above = self.open.as_ref().and_then(|open| open.keyword);
+        if keyword.is_some() || above.is_some_and(|above| !above.goes_on()) {
             self.close();
         }
         let statement = self.open.get_or_insert_with(|| Statement {
@@ -206,11 +216,16 @@ mod tests {
     }
 
     #[test]
-    fn a_statement_ends_at_the_next_keyword_or_a_blank_line() {
+    fn a_rung_ends_at_the_next_keyword_or_a_blank_line() {
         assert_eq!(
             pieces("rung: (a +\n b -> c\nrung: d\n\n * e"),
             ["rung : ( a +  b -> c", "rung : d", "-", "* e"]
         );
+    }
+
+    #[test]
+    fn only_rungs_go_on_over_several_lines() {
+        assert_eq!(pieces("input a\n%I0\nx"), ["input a", "%I0  x"]);
     }
 
     #[test]

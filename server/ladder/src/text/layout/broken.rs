@@ -51,21 +51,22 @@ impl Breaker<'_> {
         let tokens = self.code.get(range.clone()).unwrap_or_default();
         let gaps = self.gaps.get(range).unwrap_or_default();
         let mut line = " ".repeat(indent);
-        match tokens.split_first() {
+        let Some((first, others)) = tokens.split_first() else {
+            return line;
+        };
+        let word = first.text(self.text);
+        let (begin, gap) = match first.kind {
             // A keyword at the beginning of a line would begin a statement.
-            Some((first, others))
-                if first.kind == TokenKind::Name
-                    && Keyword::of(first.text(self.text)).is_some() =>
-            {
-                line.push_str(&format!("\"{}\"", first.text(self.text)));
-                let gaps = gaps.get(1..).unwrap_or_default();
-                if gaps.first() == Some(&true) {
-                    line.push(' ');
-                }
-                line.push_str(&joined(self.text, others, gaps));
-            }
-            _ => line.push_str(&joined(self.text, tokens, gaps)),
+            TokenKind::Name if Keyword::of(word).is_some() => (format!("\"{word}\""), false),
+            TokenKind::Star | TokenKind::Plus => (word.to_owned(), true),
+            _ => (word.to_owned(), false),
+        };
+        line.push_str(&begin);
+        let gaps = gaps.get(1..).unwrap_or_default();
+        if gap || gaps.first() == Some(&true) {
+            line.push(' ');
         }
+        line.push_str(&joined(self.text, others, gaps));
         line
     }
 

@@ -4,9 +4,10 @@
 use super::WIDTH;
 use super::piece::{COLUMNS, Piece, width, with_comment};
 
-/// Conditions longer than this do not push the arrows of their neighbours to
-/// the right.
-const WIDEST_CONDITION: usize = 72;
+/// Arrows are aligned where no condition is longer than another by more than
+/// this: an arrow far from its condition is harder to read than one out of
+/// line.
+const MOST_BLANKS: usize = 24;
 
 /// All lines of a text.
 pub(super) fn lines(pieces: Vec<Piece>) -> Vec<String> {
@@ -72,30 +73,56 @@ fn declarations(block: &[Piece], lines: &mut Vec<String>) {
 }
 
 fn rungs(block: &[Piece], lines: &mut Vec<String>) {
-    let widths = block.iter().filter_map(|piece| match piece {
-        Piece::Rung(left, right, _) if !right.is_empty() => Some(width(left)),
-        _ => None,
-    });
-    let widest = widths
-        .filter(|width| *width <= WIDEST_CONDITION)
-        .max()
-        .unwrap_or(0);
-    for piece in block {
-        match piece {
-            Piece::Rung(left, right, behind) => {
-                let mut line = left.clone();
-                let missing = widest.saturating_sub(width(left));
-                if !right.is_empty() {
-                    if widest + 1 + width(right) <= WIDTH {
-                        line.extend(std::iter::repeat_n(' ', missing));
-                    }
-                    line.push(' ');
-                    line.push_str(right);
+    let mut rest = block;
+    while !rest.is_empty() {
+        let (many, widest) = alike(rest);
+        let (run, others) = rest.split_at(many);
+        rest = others;
+        for piece in run {
+            match piece {
+                Piece::Rung(left, right, behind) => {
+                    let line = rung(left, right, widest);
+                    lines.push(with_comment(line, behind.as_deref()));
                 }
-                lines.push(with_comment(line, behind.as_deref()));
+                Piece::Comment(comment) => lines.push(comment.clone()),
+                _ => {}
             }
-            Piece::Comment(comment) => lines.push(comment.clone()),
-            _ => {}
         }
     }
+}
+
+/// How many of the first pieces have conditions of like length, at least one,
+/// and the length of the longest.
+fn alike(pieces: &[Piece]) -> (usize, usize) {
+    let (mut narrowest, mut widest) = (usize::MAX, 0);
+    for (at, piece) in pieces.iter().enumerate() {
+        let Piece::Rung(left, right, _) = piece else {
+            continue;
+        };
+        if right.is_empty() {
+            continue;
+        }
+        let width = width(left);
+        let spread = widest.max(width) - narrowest.min(width);
+        if spread > MOST_BLANKS && widest > 0 {
+            return (at, widest);
+        }
+        narrowest = narrowest.min(width);
+        widest = widest.max(width);
+    }
+    (pieces.len(), widest)
+}
+
+fn rung(left: &str, right: &str, widest: usize) -> String {
+    let mut line = left.to_owned();
+    if right.is_empty() {
+        return line;
+    }
+    if widest + 1 + width(right) <= WIDTH {
+        let missing = widest.saturating_sub(width(left));
+        line.extend(std::iter::repeat_n(' ', missing));
+    }
+    line.push(' ');
+    line.push_str(right);
+    line
 }

@@ -1,9 +1,9 @@
 //! The canonical layout of a `.ladder` text.
 //!
-//! Only blanks, line breaks and the order of nothing change: every token and
-//! every comment stays, in its order. (Two spellings are made one: `:=` before
-//! an initial value becomes `=`, and a variable called as a keyword gets quotes
-//! where the layout puts it at the beginning of a line.) So the program read
+//! Only blanks and line breaks change: every token and every comment stays, in
+//! its order. (Three spellings give way to one: a keyword is written small,
+//! `:=` before an initial value becomes `=`, and a variable called as a keyword
+//! gets quotes where a line begins with it.) So the program read
 //! from the new text is the one read from the old, and laying out twice is
 //! laying out once.
 //!

@@ -50,6 +50,22 @@ pub(super) fn piece(text: &str, item: &Item) -> Piece {
             span: statement.span(),
         };
     }
+    let mut piece = laid_out(text, statement);
+    let first_line = match &mut piece {
+        Piece::Declaration(columns, _) => columns.first_mut(),
+        Piece::Rung(left, ..) => Some(left),
+        Piece::Lines(lines) => lines.first_mut(),
+        Piece::Blank | Piece::Comment(_) | Piece::Left { .. } => None,
+    };
+    // Keywords are written small. Capital ones have as many bytes.
+    let keyword = statement.tokens.first().map_or(0, |token| token.span.len());
+    if let Some(word) = first_line.and_then(|line| line.get_mut(..keyword)) {
+        word.make_ascii_lowercase();
+    }
+    piece
+}
+
+fn laid_out(text: &str, statement: &Statement) -> Piece {
     if statement.holds_a_comment() {
         return Piece::Lines(as_broken_by_hand(text, statement));
     }
@@ -180,14 +196,11 @@ fn whole_lines<'t>(text: &'t str, statement: &Statement) -> &'t str {
     let span = statement.span().range();
     let bytes = text.as_bytes();
     let before = bytes.get(..span.start).unwrap_or_default();
-    let start = before
-        .iter()
-        .rposition(|byte| is_end(byte))
-        .map_or(0, |at| at + 1);
+    let start = before.iter().rposition(is_end).map_or(0, |at| at + 1);
     let after = bytes.get(span.end..).unwrap_or_default();
     let end = after
         .iter()
-        .position(|byte| is_end(byte))
+        .position(is_end)
         .map_or(bytes.len(), |at| span.end + at);
     text.get(start..end).unwrap_or_default()
 }
