@@ -124,6 +124,7 @@ pub mod codes {
         SPEC_UNDECLARED = 3002, Error, "name not declared";
         SPEC_DECLARED_TWICE = 3003, Error, "name declared twice";
         SPEC_NO_INITIAL_STEP = 3004, Warning, "no initial step";
+        TRANSITION_WITHOUT_RULE = 3005, Warning, "transition without a rule";
         RULE_NOT_SUPPORTED = 3101, Warning, "rule that the ladder no longer supports";
         STATE_GONE = 3102, Warning, "state is no longer in the ladder";
         DECISION_UNKNOWN = 3103, Warning, "decision about an unknown state";
