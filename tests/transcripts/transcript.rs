@@ -19,11 +19,12 @@ use std::fmt::Write;
 
 use end_to_end::{Ended, Gradus};
 
+const CONSOLE: &str = "console";
 const PROMPT: &str = "$ ";
 
-/// Whether the document has a `console` block with a command in it.
+/// Whether the document has a `console` block.
 pub fn is_one(document: &str) -> bool {
-    document.contains("```console\n$ ")
+    parts(document).iter().any(|part| part.info == CONSOLE)
 }
 
 /// The document with what its commands answer now.
@@ -31,31 +32,63 @@ pub fn replay(document: &str, executable: &str) -> String {
     let gradus = Gradus::new(executable);
     lend_fixtures(&gradus);
     let mut out = String::new();
-    let mut lines = document.split_inclusive('\n');
-    while let Some(line) = lines.next() {
-        out.push_str(line);
-        let Some(fence) = Fence::opening(line) else {
-            continue;
-        };
-        let mut body = String::new();
-        let mut closing = "";
-        for line in lines.by_ref() {
-            if fence.is_closed_by(line) {
-                closing = line;
-                break;
-            }
-            body.push_str(line);
+    for part in parts(document) {
+        if let Some((_, name)) = part.info.split_once(" file=") {
+            gradus.write(name, &part.body);
         }
-        if let Some(name) = fence.file() {
-            gradus.write(name, &body);
+        out.push_str(part.opening);
+        if part.info == CONSOLE {
+            out.push_str(&rerun(&part.body, &gradus));
+        } else {
+            out.push_str(&part.body);
         }
-        if fence.info == "console" {
-            body = rerun(&body, &gradus);
-        }
-        out.push_str(&body);
-        out.push_str(closing);
+        out.push_str(part.closing);
     }
     out
+}
+
+/// A line of prose, or a fenced block.
+struct Part<'d> {
+    /// The line, or the one that opens the block.
+    opening: &'d str,
+    /// What stands after the opening backticks.
+    info: &'d str,
+    body: String,
+    closing: &'d str,
+}
+
+fn parts(document: &str) -> Vec<Part<'_>> {
+    let mut parts = Vec::new();
+    let mut lines = document.split_inclusive('\n');
+    while let Some(opening) = lines.next() {
+        let mut part = Part {
+            opening,
+            info: "",
+            body: String::new(),
+            closing: "",
+        };
+        if let Some((ticks, info)) = fence(opening) {
+            part.info = info;
+            for line in lines.by_ref() {
+                if fence(line).is_some_and(|(more, info)| more >= ticks && info.is_empty()) {
+                    part.closing = line;
+                    break;
+                }
+                part.body.push_str(line);
+            }
+        }
+        parts.push(part);
+    }
+    parts
+}
+
+/// The number of backticks that a line begins with, if it opens or closes a
+/// block, and what stands after them.
+fn fence(line: &str) -> Option<(usize, &str)> {
+    let line = line.trim_end();
+    let info = line.trim_start_matches('`');
+    let ticks = line.len() - info.len();
+    (ticks >= 3 && !info.contains('`')).then_some((ticks, info))
 }
 
 /// Fixtures are read where they lie.
@@ -88,28 +121,4 @@ fn show(ended: &Ended) -> String {
         None => shown.push_str("[ended by a signal]\n"),
     }
     shown
-}
-
-/// The line that opens a fenced block.
-struct Fence<'d> {
-    ticks: usize,
-    info: &'d str,
-}
-
-impl<'d> Fence<'d> {
-    fn opening(line: &'d str) -> Option<Self> {
-        let line = line.trim_end();
-        let info = line.trim_start_matches('`');
-        let ticks = line.len() - info.len();
-        (ticks >= 3 && !info.contains('`')).then_some(Self { ticks, info })
-    }
-
-    fn is_closed_by(&self, line: &str) -> bool {
-        Fence::opening(line).is_some_and(|end| end.info.is_empty() && end.ticks >= self.ticks)
-    }
-
-    fn file(&self) -> Option<&'d str> {
-        let (_, name) = self.info.split_once(" file=")?;
-        Some(name)
-    }
 }

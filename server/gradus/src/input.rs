@@ -20,6 +20,13 @@ pub struct Candidate {
     pub origin: Origin,
 }
 
+impl Candidate {
+    /// Whether it is `-`.
+    pub fn is_standard_input(&self) -> bool {
+        is_standard_input(&self.path)
+    }
+}
+
 /// How a file came to be looked at.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Origin {

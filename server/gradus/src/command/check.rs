@@ -103,13 +103,17 @@ pub fn run(args: &Args, io: &mut Io) -> std::io::Result<Status> {
 
 /// Checks every file; `None` if somebody pressed Ctrl-C.
 fn check(inputs: Inputs, io: &mut Io) -> Option<Checked> {
-    let progress = Progress::begin("Checking", inputs.candidates.len());
+    let waits_for_input = inputs.candidates.iter().any(Candidate::is_standard_input);
+    // A line that moves would get in the way of somebody who types a program.
+    let progress = (!waits_for_input).then(|| Progress::begin("Checking", inputs.candidates.len()));
     let mut checked = Checked {
         unreadable: inputs.unreadable,
         ..Checked::default()
     };
     for (part, candidate) in inputs.candidates.into_iter().enumerate() {
-        progress.at(part, &report::printable(&input::name(&candidate.path)));
+        if let Some(progress) = &progress {
+            progress.at(part, &report::printable(&input::name(&candidate.path)));
+        }
         match io.read(&candidate.path) {
             Ok(text) => examine(candidate, text, &mut checked),
             Err(reason) => checked.unreadable.push((candidate.path, reason)),

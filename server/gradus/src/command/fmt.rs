@@ -1,38 +1,36 @@
 //! `gradus fmt`: the canonical layout of the project's own texts.
 //!
-//! Layout changes how a text looks, never what it means. A text with errors is
-//! left alone: what was not understood cannot be laid out. Byte order mark and
-//! line ends stay as they are.
+//! Layout changes how a text looks, never what it means. The formatters are in
+//! the crates that own the notations; here is what happens to files.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
+use ladder::Format;
 use serde_json::{Value, json};
-use source::{Diagnostic, Severity};
 
 use crate::file::{self, Unreadable};
 use crate::input::{self, Candidate, Origin, numbered};
-use crate::io::{Io, is_standard_input};
-use crate::report::{self, Findings};
+use crate::io::Io;
+use crate::report;
 use crate::status::Status;
 
 mod diff;
-mod layout;
-
-use layout::LaidOut;
 
 const DETAILS: &str = "\
 A folder stands for the .ladder and .grafcet files below it. A file that would
 not change is not written; one that changes is replaced in one step and keeps
-its permissions. A text with errors is left alone.
+its permissions. Statements that break the grammar are left as they are, and the
+rest is laid out.
 
-Exit status: 1 if a text has errors, or with --check if a file would change;
+Exit status: 1 if a statement was left, or with --check if a file would change;
 2 if a file cannot be read or written, or has no canonical layout.
 
 JSON:
-  {\"files\": [{\"file\", \"state\"}]}
-  `state` is unchanged, changed, would_change, faulty, no_layout, unreadable or
-  unwritable.
+  {\"files\": [{\"file\", \"state\", \"left\"}]}
+  `state` is unchanged, changed, would_change, no_layout, unreadable or unwritable;
+  `left` is the number of statements that were left as they are. With --json,
+  standard input is not printed: its state is unchanged or would_change.
 
 Examples:
   gradus fmt plant/             lay out every .ladder and .grafcet text in place
@@ -56,135 +54,151 @@ pub struct Args {
     json: bool,
 }
 
+/// A text in its canonical layout.
+struct LaidOut {
+    text: String,
+    /// Statements that break the grammar, left as they are.
+    left: usize,
+}
+
+/// Lays out the text that `bytes` hold, if it is one of those that have a
+/// canonical layout.
+fn lay_out(bytes: &[u8]) -> Option<LaidOut> {
+    let text = std::str::from_utf8(bytes).ok()?;
+    if ladder::read(bytes).program.format != Format::Ladder {
+        return None;
+    }
+    let formatted = ladder::text::format(text);
+    Some(LaidOut {
+        text: formatted.text,
+        left: formatted.left.len(),
+    })
+}
+
 /// What became of one file.
-enum Outcome {
+struct Outcome {
+    state: State,
+    left: usize,
+}
+
+enum State {
     Unchanged,
     Changed,
     WouldChange { old: String, new: String },
     Printed(String),
-    Faulty(Findings),
     NoLayout,
     Unreadable(Unreadable),
     Unwritable(std::io::Error),
+}
+
+impl From<State> for Outcome {
+    fn from(state: State) -> Self {
+        Self { state, left: 0 }
+    }
 }
 
 /// Lays out every file.
 pub fn run(args: &Args, io: &mut Io) -> std::io::Result<Status> {
     let inputs = input::expand(&args.files, &["ladder", "grafcet"]);
     let mut status = Status::Done;
-    let mut states = Vec::new();
-    let unreadable = inputs.unreadable.into_iter();
-    for (folder, reason) in unreadable {
-        let outcome = Outcome::Unreadable(reason);
+    let mut answers = Vec::new();
+    for (folder, reason) in inputs.unreadable {
+        let outcome = State::Unreadable(reason).into();
         status = status.max(tell(args, &folder, &outcome, io)?);
-        states.push(state(&folder, &outcome));
+        answers.push(answer(&folder, &outcome));
     }
     for candidate in inputs.candidates {
         if io.cancel().is_cancelled() {
             return Ok(Status::Interrupted);
         }
-        let outcome = lay_out(args, &candidate, io);
-        if candidate.origin == Origin::InFolder && matches!(outcome, Outcome::NoLayout) {
+        let outcome = treat(args, &candidate, io);
+        if candidate.origin == Origin::InFolder && matches!(outcome.state, State::NoLayout) {
             continue;
         }
         status = status.max(tell(args, &candidate.path, &outcome, io)?);
-        states.push(state(&candidate.path, &outcome));
+        answers.push(answer(&candidate.path, &outcome));
     }
     if args.json {
-        writeln!(io.answer(), "{:#}", json!({ "files": states }))?;
+        writeln!(io.answer(), "{:#}", json!({ "files": answers }))?;
     }
     Ok(status)
 }
 
 /// Lays out one file, and replaces it if that is asked for and needed.
-fn lay_out(args: &Args, candidate: &Candidate, io: &mut Io) -> Outcome {
+fn treat(args: &Args, candidate: &Candidate, io: &mut Io) -> Outcome {
     let path = &candidate.path;
     let bytes = match io.read(path) {
         Ok(bytes) => bytes,
-        Err(reason) => return Outcome::Unreadable(reason),
+        Err(reason) => return State::Unreadable(reason).into(),
     };
-    let Some(LaidOut {
-        old,
-        new,
-        diagnostics,
-    }) = layout::of(&bytes)
-    else {
-        return Outcome::NoLayout;
+    let Some(LaidOut { text: new, left }) = lay_out(&bytes) else {
+        return State::NoLayout.into();
     };
-    if diagnostics.iter().any(is_error) {
-        return Outcome::Faulty(Findings::new(path.clone(), bytes, diagnostics));
-    }
-    if is_standard_input(path) && !args.check && !args.json {
-        Outcome::Printed(new)
-    } else if old == new {
-        Outcome::Unchanged
-    } else if args.check || is_standard_input(path) {
-        Outcome::WouldChange { old, new }
+    let is_printed = candidate.is_standard_input() && !args.check && !args.json;
+    let state = if is_printed {
+        State::Printed(new)
+    } else if bytes == new.as_bytes() {
+        State::Unchanged
+    } else if args.check || candidate.is_standard_input() {
+        let old = String::from_utf8_lossy(&bytes).into_owned();
+        State::WouldChange { old, new }
     } else {
         match file::replace(path, new.as_bytes()) {
-            Ok(()) => Outcome::Changed,
-            Err(error) => Outcome::Unwritable(error),
+            Ok(()) => State::Changed,
+            Err(error) => State::Unwritable(error),
         }
-    }
-}
-
-fn is_error(diagnostic: &Diagnostic) -> bool {
-    diagnostic.severity == Severity::Error
+    };
+    Outcome { state, left }
 }
 
 /// Says what became of a file, and how that counts.
 fn tell(args: &Args, path: &Path, outcome: &Outcome, io: &mut Io) -> std::io::Result<Status> {
     let name = report::printable(&input::name(path));
-    let paint = io.aside_paint();
-    match outcome {
-        Outcome::Unchanged => Ok(Status::Done),
-        Outcome::Changed => {
-            io.aside(&format!("{name}: laid out\n"))?;
-            Ok(Status::Done)
-        }
-        Outcome::WouldChange { old, new } => {
+    let mut status = Status::Done;
+    match &outcome.state {
+        State::Unchanged => {}
+        State::Changed => io.aside(&format!("{name}: laid out\n"))?,
+        State::WouldChange { old, new } => {
+            status = Status::ProblemsFound;
             if !args.json {
                 let diff = diff::unified(&name, old, new, io.answer_paint());
                 io.answer().write_all(diff.as_bytes())?;
             }
-            Ok(Status::ProblemsFound)
         }
-        Outcome::Printed(text) => {
-            io.answer().write_all(text.as_bytes())?;
-            Ok(Status::Done)
+        State::Printed(text) => io.answer().write_all(text.as_bytes())?,
+        State::NoLayout => {
+            status = Status::Usage;
+            let why = "only .ladder and .grafcet texts have a canonical layout";
+            io.complain(&format!("{name}: {why}"));
         }
-        Outcome::Faulty(findings) => {
-            let errors = numbered(findings.count(Severity::Error), "error");
-            io.aside(&report::text(findings, paint))?;
-            io.aside(&format!("{name}: left alone, {errors}\n"))?;
-            Ok(Status::ProblemsFound)
-        }
-        Outcome::NoLayout => {
-            io.complain(&format!(
-                "{name}: only .ladder and .grafcet texts have a canonical layout"
-            ));
-            Ok(Status::Usage)
-        }
-        Outcome::Unreadable(reason) => {
+        State::Unreadable(reason) => {
+            status = Status::Usage;
+            let paint = io.aside_paint();
             io.aside(&report::unreadable(path, &reason.diagnostic(), paint))?;
-            Ok(Status::Usage)
         }
-        Outcome::Unwritable(error) => {
+        State::Unwritable(error) => {
+            status = Status::Usage;
             io.complain(&format!("{name}: cannot be written: {error}"));
-            Ok(Status::Usage)
         }
     }
+    if outcome.left > 0 {
+        status = status.max(Status::ProblemsFound);
+        let left = numbered(outcome.left, "statement");
+        io.aside(&format!(
+            "{name}: {left} left as written; `gradus check` says why\n"
+        ))?;
+    }
+    Ok(status)
 }
 
-fn state(path: &Path, outcome: &Outcome) -> Value {
-    let state = match outcome {
-        Outcome::Unchanged | Outcome::Printed(_) => "unchanged",
-        Outcome::Changed => "changed",
-        Outcome::WouldChange { .. } => "would_change",
-        Outcome::Faulty(_) => "faulty",
-        Outcome::NoLayout => "no_layout",
-        Outcome::Unreadable(_) => "unreadable",
-        Outcome::Unwritable(_) => "unwritable",
+fn answer(path: &Path, outcome: &Outcome) -> Value {
+    let state = match outcome.state {
+        State::Unchanged | State::Printed(_) => "unchanged",
+        State::Changed => "changed",
+        State::WouldChange { .. } => "would_change",
+        State::NoLayout => "no_layout",
+        State::Unreadable(_) => "unreadable",
+        State::Unwritable(_) => "unwritable",
     };
-    json!({ "file": input::name(path), "state": state })
+    json!({ "file": input::name(path), "state": state, "left": outcome.left })
 }

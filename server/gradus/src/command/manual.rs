@@ -48,14 +48,22 @@ pub fn run(args: &Args, io: &mut Io) -> std::io::Result<Status> {
         return Ok(Status::Usage);
     };
     match args.format {
-        Form::Man => {
-            let mut roff = Vec::new();
-            clap_mangen::Man::new(page).render(&mut roff)?;
-            io.answer().write_all(&roff)?;
-        }
+        Form::Man => io.answer().write_all(roff(page)?.as_bytes())?,
         Form::Markdown => io.answer().write_all(markdown(page).as_bytes())?,
     }
     Ok(Status::Done)
+}
+
+/// The page in the language of `man`.
+fn roff(page: Command) -> std::io::Result<String> {
+    let mut out = Vec::new();
+    let source = concat!("gradus ", env!("CARGO_PKG_VERSION"));
+    clap_mangen::Man::new(page)
+        .source(source)
+        .render(&mut out)?;
+    // What follows the options is laid out by hand, so its lines are kept.
+    let out = String::from_utf8_lossy(&out);
+    Ok(out.replace(".SH EXTRA\n", ".SH DETAILS\n.nf\n"))
 }
 
 /// The help of a command and of all commands below it.

@@ -282,4 +282,20 @@ mod tests {
     fn a_place_past_the_end_is_the_end() {
         assert_eq!(excerpt(b"ab", Span::new(90, 99)).indent, 2);
     }
+
+    proptest::proptest! {
+        #[test]
+        fn whatever_the_bytes_a_line_that_fits_the_screen_comes_out(
+            text in proptest::collection::vec(proptest::num::u8::ANY, 0..2_000),
+            start in 0usize..2_100,
+            length in 0usize..2_100,
+        ) {
+            let found = excerpt(&text, Span::new(start, start + length));
+            let width = found.line.chars().filter_map(UnicodeWidthChar::width).sum::<usize>();
+            proptest::prop_assert!(width <= WIDTH + 2 * CUT.len());
+            proptest::prop_assert!(!found.line.chars().any(char::is_control));
+            proptest::prop_assert!(found.marks >= 1);
+            proptest::prop_assert!(found.indent + found.marks <= WIDTH + CUT.len() + 1);
+        }
+    }
 }
