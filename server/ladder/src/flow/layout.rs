@@ -46,8 +46,9 @@ pub(crate) enum Steer {
     Return,
     /// Ends the main routine and all it called.
     End,
-    /// Begins a zone whose last stretch is given.
-    ZoneBegin(usize),
+    /// Begins a zone of these stretches: from the rung behind this one to the
+    /// rung of its end, or to the end of the routine.
+    ZoneBegin { first: usize, last: usize },
     /// Ends a zone.
     ZoneEnd,
 }
@@ -200,10 +201,14 @@ fn aim(
             (ElementKind::Zone, _) => match open_zone.take() {
                 None => {
                     open_zone = Some(at);
-                    Steer::ZoneBegin(last)
+                    let first = behind_rung(&layout.stretches, at);
+                    Steer::ZoneBegin { first, last }
                 }
                 Some(begin) => {
-                    layout.stretches[begin].steer = Some(Steer::ZoneBegin(at));
+                    layout.stretches[begin].steer = Some(Steer::ZoneBegin {
+                        first: behind_rung(&layout.stretches, begin),
+                        last: behind_rung(&layout.stretches, at) - 1,
+                    });
                     Steer::ZoneEnd
                 }
             },
@@ -212,6 +217,11 @@ fn aim(
         layout.stretches[at].steer = Some(aimed);
     }
     layout.repeated = merged(backward);
+}
+
+/// The first stretch behind the rung of the stretch `at`.
+fn behind_rung(stretches: &[Stretch], at: usize) -> usize {
+    stretches.partition_point(|stretch| stretch.rung <= stretches[at].rung)
 }
 
 /// Overlapping stretches of repetition become one, named by its first jump.

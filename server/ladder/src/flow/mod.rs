@@ -97,7 +97,8 @@ pub enum Guard {
         /// The power with which the visit is solved.
         solved_when: bool,
     },
-    /// The visit lies in a zone. The zone is switched off when its begin has
+    /// The visit lies in a zone, which reaches from the rung behind its begin
+    /// to the rung of its end. The zone is switched off when its begin has
     /// been solved this scan and had no power; then the visit is solved, but
     /// no element in it has power. So plain coils are written 0, and set and
     /// reset coils, assignments and calls do nothing.

@@ -39,6 +39,8 @@ struct Frame {
     repeated: usize,
     /// Number of guards when the routine was entered, its call's excluded.
     floor: usize,
+    /// A zone that has begun: its first and last stretch, and its begin.
+    zone: Option<(usize, usize, Place)>,
     /// Stretches before which a guard ends.
     landings: HashSet<usize>,
 }
@@ -140,6 +142,10 @@ impl<'p> Walk<'p> {
                     order,
                 );
             }
+            if let Some((_, last, begin)) = frame.zone.take_if(|zone| zone.0 == here) {
+                frame.landings.insert(last + 1);
+                guards.add(Guard::Zone { begin }, Ends::Before(last + 1), order);
+            }
             let visit = order.visits.len();
             order.visits.push(Visit {
                 routine: frame.routine,
@@ -175,12 +181,10 @@ impl<'p> Walk<'p> {
                 }
                 Some(Steer::Return) => guards.add(skips, Ends::WithRoutine, order),
                 Some(Steer::End) => guards.add(skips, Ends::WithMain, order),
-                Some(Steer::ZoneBegin(last)) => {
-                    frame.landings.insert(last + 1);
-                    let zone = Guard::Zone { begin: by };
-                    guards.add(zone, Ends::Before(last + 1), order);
+                Some(Steer::ZoneBegin { first, last }) if first <= last => {
+                    frame.zone = Some((first, last, by));
                 }
-                Some(Steer::Call(None) | Steer::Jump(_) | Steer::ZoneEnd) | None => {}
+                _ => {}
             }
             if self.spent + order.visits.len() + order.sets.len() > self.allowance {
                 self.report_explosion(&frames);
@@ -198,6 +202,7 @@ impl<'p> Walk<'p> {
             next: 0,
             repeated: 0,
             floor,
+            zone: None,
             landings: HashSet::new(),
         }
     }

@@ -100,7 +100,7 @@ pub(super) fn constant(text: &str) -> Option<Datum> {
     if text.eq_ignore_ascii_case("false") {
         return Some(Datum::Bool(false));
     }
-    if let Some(time) = time(text) {
+    if let Some(time) = duration(text) {
         return Some(Datum::Integer(time));
     }
     if !(first.is_ascii_digit() || matches!(first, '-' | '+' | '.')) {
@@ -118,7 +118,7 @@ pub(super) fn constant(text: &str) -> Option<Datum> {
 }
 
 /// Reads a duration in milliseconds: `T#5s`, `TIME#1h2m`, `500ms`, `2.5s`.
-pub(crate) fn time(text: &str) -> Option<i64> {
+pub(crate) fn duration(text: &str) -> Option<i64> {
     let text = text.trim();
     let after = |prefix: &str| {
         let head = text.get(..prefix.len())?;

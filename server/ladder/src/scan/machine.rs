@@ -179,7 +179,7 @@ impl<'p> Machine<'p> {
             };
             let is_off = frame
                 .off
-                .is_some_and(|(first, last)| first < here && here <= last);
+                .is_some_and(|(first, last)| first <= here && here <= last);
             for at in stretch.elements.clone().map(NodeIndex::new) {
                 if is_off {
                     flow.solve_switched_off(at, &mut circuit);
@@ -197,7 +197,9 @@ impl<'p> Machine<'p> {
                 Some(Steer::Jump(Some(to))) if power => frame.next = to,
                 Some(Steer::Return) if power => frame.next = layout.stretches.len(),
                 Some(Steer::End) if power => return,
-                Some(Steer::ZoneBegin(last)) => frame.off = (!power).then_some((here, last)),
+                Some(Steer::ZoneBegin { first, last }) => {
+                    frame.off = (!power).then_some((first, last));
+                }
                 _ => {}
             }
         }

@@ -27,5 +27,6 @@ mod unknown;
 
 pub use atom::{memory_atom, own_atom, pin_atom, wire_memory_atom};
 pub use datum::Datum;
+pub(crate) use datum::duration;
 pub use machine::Machine;
 pub use power::{Power, power};

@@ -122,7 +122,12 @@ impl Reader<'_> {
                 self.at += 1;
                 self.blank();
                 let from = self.base + self.at;
-                let text = self.take_while(|c| !matches!(c, ',' | ')'));
+                let mut depth = 0;
+                let text = self.take_while(|c| {
+                    depth += i32::from(c == '(');
+                    depth -= i32::from(c == ')');
+                    depth > 0 || depth == 0 && !matches!(c, ',')
+                });
                 operands.push(Operand::new(text, Span::new(from, from + text.len())));
             }
             self.at += 1;
@@ -150,7 +155,7 @@ impl Reader<'_> {
         vec![(element, port)]
     }
 
-    fn take_while(&mut self, wanted: impl Fn(char) -> bool) -> &'static str {
+    fn take_while(&mut self, mut wanted: impl FnMut(char) -> bool) -> &'static str {
         let rest = &self.text[self.at..];
         let end = rest.find(|c| !wanted(c)).unwrap_or(rest.len());
         self.at += end;
