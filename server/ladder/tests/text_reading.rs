@@ -349,5 +349,8 @@ fn only_ladders_are_taken_for_ladders() {
     assert!(is_ladder("garbage\nrung \"Fill\": a -> b"));
     assert!(!is_ladder("Output of the line is measured in tons.\n"));
     assert!(!is_ladder("program flow control\nis hard"));
+    assert!(!is_ladder(
+        "PROGRAM main\n  VAR\n    a : BOOL;\n  END_VAR\n"
+    ));
     assert!(!is_ladder("Step p1, p2\nInput m, b\n"));
 }

@@ -27,5 +27,5 @@ mod time;
 
 pub use lexer::{Lexer, Token, TokenKind};
 pub use parser::{Node, NodeKind, Problem, expression, parse};
-pub use printer::{quoted, write};
-pub use time::milliseconds;
+pub use printer::{quoted, quoted_value, write};
+pub use time::{milliseconds, time};
