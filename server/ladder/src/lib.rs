@@ -9,6 +9,7 @@
 //! power flows from the left rail through contacts and boxes to coils and
 //! boxes. Every element knows the bytes that it was read from.
 
+pub mod flow;
 pub mod model;
 
 mod ascii;

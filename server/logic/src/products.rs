@@ -36,6 +36,14 @@ impl Function {
         Ok(products)
     }
 
+    /// A function between `self` and `upper`, which `self` must imply, with as
+    /// short a sum of products as the method finds.
+    pub fn simplified_within(&self, upper: &Self, budget: &Budget) -> Result<Self, Stop> {
+        let mut room = budget.products;
+        let (_, covered) = cover(self, upper, budget, &mut room)?;
+        Ok(covered)
+    }
+
     /// The function as an expression: its irredundant sum of products.
     pub fn to_expr(&self, atoms: &Atoms, budget: &Budget) -> Result<Expr, Stop> {
         Ok(sum(&self.products(budget)?, atoms))

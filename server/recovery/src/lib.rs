@@ -1,1 +1,20 @@
-//! To be written.
+//! From a ladder to its grafcet.
+//!
+//! ```text
+//! Program -> Conditions -> States, Registers -> Successions -> (expert) -> Grafcet
+//! ```
+//!
+//! [`conditions`] says of every coil what starts, keeps and ends it;
+//! [`states`] which coils hold the states of the process, [`registers`] which
+//! numbers count its steps; [`successions`] which state may follow which.
+
+mod analysis;
+pub mod conditions;
+pub mod conversion;
+pub mod findings;
+pub mod groups;
+pub mod registers;
+pub mod states;
+pub mod successions;
+
+pub use analysis::{Analysis, analyse};

@@ -116,6 +116,7 @@ pub mod codes {
         FALLS_IN_ITSELF = 2009, Warning, "rung falls in its own coil";
         INTERLOCK_NEVER_RELEASES = 2010, Warning, "interlock that can never release";
         UNREACHABLE_RUNG = 2011, Warning, "rung is never solved";
+        CALL_NOT_FOLLOWED = 2012, Warning, "call not followed";
         TOO_LARGE = 2013, Warning, "condition too large";
         BACKWARD_JUMP = 2014, Warning, "jump backwards";
         WRITTEN_AS_A_WORD = 2015, Hint, "bits written through their word";
@@ -123,6 +124,7 @@ pub mod codes {
         SPEC_UNDECLARED = 3002, Error, "name not declared";
         SPEC_DECLARED_TWICE = 3003, Error, "name declared twice";
         SPEC_NO_INITIAL_STEP = 3004, Warning, "no initial step";
+        TRANSITION_WITHOUT_RULE = 3005, Warning, "transition without a rule";
         RULE_NOT_SUPPORTED = 3101, Warning, "rule that the ladder no longer supports";
         STATE_GONE = 3102, Warning, "state is no longer in the ladder";
         DECISION_UNKNOWN = 3103, Warning, "decision about an unknown state";

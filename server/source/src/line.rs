@@ -15,7 +15,12 @@ pub struct LineColumn {
 #[derive(Clone, Debug)]
 pub struct LineIndex {
     starts: Vec<usize>,
+    /// Characters before every [`BLOCK`]: exports put a whole program on one
+    /// line, and counting from its start for every finding would be quadratic.
+    characters: Vec<usize>,
 }
+
+const BLOCK: usize = 1024;
 
 const BYTE_ORDER_MARK: &[u8] = b"\xEF\xBB\xBF";
 
@@ -38,7 +43,13 @@ impl LineIndex {
                 starts.push(at + 1);
             }
         }
-        Self { starts }
+        let mut total = 0;
+        let mut characters = vec![0];
+        for block in text.chunks(BLOCK) {
+            total += count(block);
+            characters.push(total);
+        }
+        Self { starts, characters }
     }
 
     /// Line and column of the byte at `offset` in `text`, the text that the
@@ -47,15 +58,23 @@ impl LineIndex {
         let offset = offset.min(text.len());
         let line = self.starts.partition_point(|&start| start <= offset).max(1);
         let start = self.starts[line - 1].min(offset);
-        let characters = text[start..offset]
-            .iter()
-            .filter(|&&byte| byte & 0xC0 != 0x80)
-            .count();
         LineColumn {
             line,
-            column: characters + 1,
+            column: self.before(text, offset) - self.before(text, start) + 1,
         }
     }
+
+    /// Number of characters before the byte at `offset`.
+    fn before(&self, text: &[u8], offset: usize) -> usize {
+        let block = offset / BLOCK;
+        let counted = self.characters.get(block).copied().unwrap_or_default();
+        counted + count(&text[block * BLOCK..offset])
+    }
+}
+
+/// Number of characters that begin in `bytes`.
+fn count(bytes: &[u8]) -> usize {
+    bytes.iter().filter(|&&byte| byte & 0xC0 != 0x80).count()
 }
 
 #[cfg(test)]
@@ -79,5 +98,13 @@ mod tests {
         assert_eq!(locate("\u{feff}äb", 3), (1, 1));
         assert_eq!(locate("\u{feff}äb", 5), (1, 2));
         assert_eq!(locate("", 9), (1, 1));
+    }
+
+    #[test]
+    fn columns_are_right_far_into_a_long_line() {
+        let line = "ä".repeat(5_000);
+        for column in [0, 511, 512, 513, 4_999, 5_000] {
+            assert_eq!(locate(&line, 2 * column), (1, column + 1));
+        }
     }
 }

@@ -26,6 +26,6 @@ mod printer;
 mod time;
 
 pub use lexer::{Lexer, Token, TokenKind};
-pub use parser::{Node, NodeKind, Problem, expression, parse};
-pub use printer::{quoted, quoted_value, write};
+pub use parser::{Node, NodeKind, Problem, expression, one_factor, parse};
+pub use printer::{is_literal, quoted, quoted_value, write, write_factor};
 pub use time::{milliseconds, time};

@@ -129,6 +129,13 @@ pub fn expression(lexer: &mut Lexer<'_>) -> Result<Node, Problem> {
     sum(lexer, 0)
 }
 
+/// Reads one factor at the lexer's place: what may stand between two `*`.
+/// For grammars with operators of their own around it, as `@` in a rule about
+/// the next scan.
+pub fn one_factor(lexer: &mut Lexer<'_>) -> Result<Node, Problem> {
+    factor(lexer, 0)
+}
+
 fn sum(lexer: &mut Lexer<'_>, depth: usize) -> Result<Node, Problem> {
     list(lexer, depth, TokenKind::Plus, product, NodeKind::Or)
 }

@@ -9,6 +9,18 @@ pub fn write(expr: &Expr) -> String {
     expr.to_string()
 }
 
+/// Prints an expression as a factor of a product: a sum, a product or a
+/// comparison stands in parentheses.
+pub fn write_factor(expr: &Expr) -> String {
+    struct Factor<'e>(&'e Expr);
+    impl Display for Factor<'_> {
+        fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+            print(self.0, Binding::Complement, f)
+        }
+    }
+    Factor(expr).to_string()
+}
+
 /// A name as the notation writes it: in double quotes where it holds more
 /// than letters, digits, `_`, `.` and a leading `%`, or would read as
 /// something else.
@@ -69,7 +81,7 @@ pub fn quoted_value(side: &str) -> String {
 }
 
 /// Whether a side of a comparison is a number or a time, not a name.
-pub(super) fn is_literal(side: &str) -> bool {
+pub fn is_literal(side: &str) -> bool {
     let digits = side.strip_prefix('-').unwrap_or(side);
     Lexer::new(digits).peek().is_some_and(|token| {
         token.span.len() == digits.len()

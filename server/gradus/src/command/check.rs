@@ -1,0 +1,192 @@
+//! `gradus check`: what is wrong or odd in ladders and specs.
+
+use std::io::Write;
+use std::path::PathBuf;
+
+use clap::ValueEnum;
+use source::{Severity, codes};
+
+use crate::colour::Paint;
+use crate::file::Unreadable;
+use crate::input::{self, Candidate, Inputs, Origin, numbered};
+use crate::io::Io;
+use crate::progress::Progress;
+use crate::report::{self, Findings};
+use crate::status::Status;
+
+const DETAILS: &str = "\
+A folder stands for the files below it that end in .ladder, .l5x, .l5k, .xml,
+.txt or .grafcet; those of the endings .xml and .txt that hold no ladder are passed over.
+
+Exit status: 1 if there is a finding of severity error, 2 if a file cannot be read;
+the other files are checked all the same.
+
+JSON:
+  {\"diagnostics\": [{\"file\", \"code\", \"severity\", \"message\", \"help\",
+    \"span\": {\"start\", \"end\"}, \"line\", \"column\",
+    \"related\": [{\"message\", \"span\", \"line\", \"column\"}],
+    \"fix\": {\"title\", \"edits\": [{\"span\", \"text\"}]}}]}
+  A span counts bytes of the file from 0; line and column count from 1, a column
+  being a character. `severity` is error, warning, information or hint. `help`
+  and `fix` are null where there is none.
+
+SARIF is version 2.1.0, with a rule for every code.
+
+Examples:
+  gradus check line3.L5X                       one program
+  gradus check plant/                          a whole plant
+  gradus check --format sarif . > gradus.sarif for a code-review tool
+  gradus check - < pasted.txt                  what somebody pasted";
+
+/// Report what is wrong or odd in ladders and specs.
+#[derive(Debug, clap::Args)]
+#[command(after_long_help = DETAILS)]
+pub struct Args {
+    /// Files or folders to check; `-` is standard input.
+    #[arg(required = true, value_name = "FILE")]
+    files: Vec<PathBuf>,
+
+    /// The form of the answer.
+    #[arg(long, default_value = "text")]
+    format: Form,
+
+    /// The same as `--format json`.
+    #[arg(long, conflicts_with = "format")]
+    json: bool,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Form {
+    /// For people: each finding with its line.
+    Text,
+    /// For scripts: one JSON document.
+    Json,
+    /// For code-review tools: SARIF 2.1.0.
+    Sarif,
+}
+
+/// What came of all files.
+#[derive(Default)]
+struct Checked {
+    /// Files with findings. Of the others only the number is kept.
+    findings: Vec<Findings>,
+    files: usize,
+    passed_over: usize,
+    unreadable: Vec<(PathBuf, Unreadable)>,
+}
+
+/// Checks every file, then answers.
+pub fn run(args: &Args, io: &mut Io) -> std::io::Result<Status> {
+    let inputs = input::expand(&args.files, input::ENDINGS);
+    let Some(checked) = check(inputs, io) else {
+        return Ok(Status::Interrupted);
+    };
+    let form = if args.json { Form::Json } else { args.format };
+    match form {
+        Form::Text => {
+            let paint = io.answer_paint();
+            for findings in &checked.findings {
+                let text = report::text(findings, paint);
+                io.answer().write_all(text.as_bytes())?;
+            }
+        }
+        Form::Json => writeln!(io.answer(), "{:#}", report::json(&checked.findings))?,
+        Form::Sarif => {
+            let root = std::env::current_dir().unwrap_or_default();
+            let sarif = report::sarif(&checked.findings, &checked.unreadable, &root);
+            writeln!(io.answer(), "{sarif:#}")?;
+        }
+    }
+    io.aside(&aside(&checked, io.aside_paint()))?;
+    Ok(status(&checked))
+}
+
+/// Checks every file; `None` if somebody pressed Ctrl-C.
+fn check(inputs: Inputs, io: &mut Io) -> Option<Checked> {
+    let waits_for_input = inputs.candidates.iter().any(Candidate::is_standard_input);
+    // A line that moves would get in the way of somebody who types a program.
+    let progress = (!waits_for_input).then(|| Progress::begin("Checking", inputs.candidates.len()));
+    let mut checked = Checked {
+        unreadable: inputs.unreadable,
+        ..Checked::default()
+    };
+    for (part, candidate) in inputs.candidates.into_iter().enumerate() {
+        if let Some(progress) = &progress {
+            progress.at(part, &report::printable(&input::name(&candidate.path)));
+        }
+        match io.read(&candidate.path) {
+            Ok(text) => examine(candidate, text, &mut checked),
+            Err(reason) => checked.unreadable.push((candidate.path, reason)),
+        }
+        if io.cancel().is_cancelled() {
+            return None;
+        }
+    }
+    Some(checked)
+}
+
+/// Adds what there is to say about one file.
+fn examine(candidate: Candidate, text: Vec<u8>, checked: &mut Checked) {
+    let diagnostics = ladder::read(&text).diagnostics;
+    let is_of_no_interest = input::may_be_anything(&candidate.path)
+        && diagnostics
+            .iter()
+            .any(|found| [codes::NOT_A_PROGRAM, codes::ENCODING].contains(&found.code));
+    if candidate.origin == Origin::InFolder && is_of_no_interest {
+        checked.passed_over += 1;
+        return;
+    }
+    checked.files += 1;
+    if !diagnostics.is_empty() {
+        let findings = Findings::new(candidate.path, text, diagnostics);
+        checked.findings.push(findings);
+    }
+}
+
+fn status(checked: &Checked) -> Status {
+    if !checked.unreadable.is_empty() {
+        Status::Usage
+    } else if count(checked, Severity::Error) > 0 {
+        Status::ProblemsFound
+    } else {
+        Status::Done
+    }
+}
+
+/// What is said beside the answer: files that could not be read, and the sum.
+fn aside(checked: &Checked, paint: Paint) -> String {
+    let mut text = String::new();
+    for (path, reason) in &checked.unreadable {
+        text += &report::unreadable(path, &reason.diagnostic(), paint);
+    }
+    let found: Vec<_> = [
+        (Severity::Error, "error"),
+        (Severity::Warning, "warning"),
+        (Severity::Information, "remark"),
+        (Severity::Hint, "hint"),
+    ]
+    .into_iter()
+    .map(|(severity, noun)| (count(checked, severity), noun))
+    .filter(|(number, _)| *number > 0)
+    .map(|(number, noun)| numbered(number, noun))
+    .collect();
+    let found = if found.is_empty() {
+        "nothing found".to_owned()
+    } else {
+        found.join(", ")
+    };
+    text += &format!("{} checked: {found}", numbered(checked.files, "file"));
+    if checked.passed_over > 0 {
+        let passed_over = numbered(checked.passed_over, "other file");
+        text += &format!("; {passed_over} passed over");
+    }
+    if !checked.unreadable.is_empty() {
+        text += &format!("; {} not readable", checked.unreadable.len());
+    }
+    text + "\n"
+}
+
+fn count(checked: &Checked, severity: Severity) -> usize {
+    let counts = checked.findings.iter().map(|found| found.count(severity));
+    counts.sum()
+}

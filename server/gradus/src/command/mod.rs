@@ -1,0 +1,35 @@
+//! The commands, one file each.
+//!
+//! A command's file holds its arguments, with the help that `--help` and the
+//! manual show, and `run`, which does it. To add one: its file, and its line in
+//! each of the three lists here.
+
+mod check;
+mod completions;
+mod explain;
+mod fmt;
+mod manual;
+
+use crate::io::Io;
+use crate::status::Status;
+
+/// What to do, with its arguments.
+#[derive(Debug, clap::Subcommand)]
+pub enum Command {
+    Check(check::Args),
+    Fmt(fmt::Args),
+    Explain(explain::Args),
+    Completions(completions::Args),
+    Manual(manual::Args),
+}
+
+/// Does it. An error means that the answer could not be written.
+pub fn run(command: &Command, io: &mut Io) -> std::io::Result<Status> {
+    match command {
+        Command::Check(args) => check::run(args, io),
+        Command::Fmt(args) => fmt::run(args, io),
+        Command::Explain(args) => explain::run(args, io),
+        Command::Completions(args) => completions::run(args, io),
+        Command::Manual(args) => manual::run(args, io),
+    }
+}

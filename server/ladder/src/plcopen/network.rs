@@ -1,0 +1,351 @@
+//! From a planned drawing to the power flow of a rung.
+//!
+//! Elements are taken in the order of solving, so what feeds an element has
+//! its [`Signal`] already. Variables drawn as elements of their own
+//! (`inVariable`) become contacts where a Boolean is wanted and operands where
+//! a value is. Negated and edge pins become elements on the wire: the
+//! complement of a parallel connection is not the parallel connection of the
+//! complements.
+
+use std::collections::{HashMap, HashSet};
+
+use logic::Name;
+use petgraph::graph::NodeIndex;
+use source::{Diagnostic, Span, codes};
+
+use super::diagram::{Diagram, Input, Node, NodeKind, Source};
+use super::names::Names;
+use super::rungs::Plan;
+use super::signal::{Form, Signal, Tap, Term};
+use super::xml::Text;
+use crate::{
+    Comparison, Contact, ContactKind, Declarations, Edge, ElementKind, Network, NetworkBuilder,
+    OneShot, Operand, Port, Wire,
+};
+
+/// What the rungs of a body have in common.
+pub(super) struct Body<'a> {
+    pub(super) diagram: &'a Diagram,
+    /// When each node is solved.
+    pub(super) turns: &'a [usize],
+    /// By node: the nodes that it feeds, in document order.
+    pub(super) consumers: &'a [Vec<usize>],
+    /// Paths that occur anywhere in the project, without case.
+    pub(super) mentioned: &'a HashSet<String>,
+    /// The unit that names are looked up in.
+    pub(super) unit: usize,
+    pub(super) names: &'a mut Names,
+    pub(super) declarations: &'a Declarations,
+    pub(super) diagnostics: &'a mut Vec<Diagnostic>,
+    /// What the drawn conditions of transitions say, by the transition's place.
+    pub(super) conditions: &'a mut HashMap<Span, Name>,
+}
+
+/// A rung while it is built.
+pub(super) struct Lowering<'b, 'a> {
+    pub(super) body: &'b mut Body<'a>,
+    pub(super) diagram: &'a Diagram,
+    pub(super) builder: NetworkBuilder,
+    /// By node and output pin, the pin without case.
+    signals: HashMap<(usize, String), Signal>,
+    /// Outputs that were built along with the block that feeds them.
+    pub(super) done: HashSet<usize>,
+    /// Whether anything in the rung has an effect.
+    pub(super) writes: bool,
+}
+
+/// The power that arrives at an input.
+pub(super) struct Arrival {
+    pub(super) taps: Vec<Tap>,
+    pub(super) term: Term,
+}
+
+/// Builds the network of a rung.
+pub(super) fn lower(body: &mut Body<'_>, plan: &Plan, span: Span) -> Network {
+    let diagram = body.diagram;
+    let mut lowering = Lowering {
+        diagram,
+        body,
+        builder: NetworkBuilder::new(rail_span(diagram, plan)),
+        signals: HashMap::new(),
+        done: HashSet::new(),
+        writes: false,
+    };
+    for &at in &plan.nodes {
+        if let Some(node) = diagram.nodes.get(at) {
+            lowering.element(at, node);
+        }
+    }
+    if !lowering.writes {
+        lowering.report(
+            Diagnostic::new(codes::RUNG_WITHOUT_OUTPUT, span, "this rung writes nothing")
+                .help("add a coil, or remove the rung"),
+        );
+    }
+    lowering.builder.finish()
+}
+
+/// The left rail that the rung hangs on, else the place of its first element.
+fn rail_span(diagram: &Diagram, plan: &Plan) -> Span {
+    let nodes = plan.nodes.iter().filter_map(|&at| diagram.nodes.get(at));
+    let sources = nodes
+        .clone()
+        .flat_map(|node| &node.inputs)
+        .flat_map(|input| &input.sources)
+        .filter_map(|source| diagram.nodes.get(source.node));
+    let mut rails = sources.filter(|node| node.kind == NodeKind::LeftRail);
+    match rails.next() {
+        Some(rail) => rail.span,
+        None => nodes
+            .map(|node| node.span)
+            .min()
+            .map_or_else(Span::default, |span| Span::at(span.start as usize)),
+    }
+}
+
+impl<'a> Lowering<'_, 'a> {
+    pub(super) fn report(&mut self, diagnostic: Diagnostic) {
+        self.body.diagnostics.push(diagnostic);
+    }
+
+    /// A name for what has none, unlike any other of the project.
+    pub(super) fn made_up(&self, at: usize, what: &str) -> Name {
+        let unit = self.body.names.unit_name(self.body.unit);
+        let node = self.diagram.nodes.get(at);
+        let id = node.map_or("", |node| node.id.as_str());
+        if id.is_empty() {
+            format!("{unit}.{what}@{at}").into()
+        } else {
+            format!("{unit}.{what}{id}").into()
+        }
+    }
+
+    pub(super) fn folded(&mut self, text: &Text) -> Operand {
+        let name = self.body.names.fold(self.body.unit, &text.value);
+        Operand::new(name, text.span)
+    }
+
+    /// The variable at an element, or a made-up one.
+    pub(super) fn operand(&mut self, at: usize, node: &Node, what: &str) -> Operand {
+        if let Some(text) = &node.operand {
+            return match node.kind {
+                NodeKind::Label | NodeKind::Jump => Operand::new(text.value.trim(), text.span),
+                _ => self.folded(text),
+            };
+        }
+        self.report(
+            Diagnostic::new(
+                codes::NAMELESS,
+                node.span,
+                format!("this {what} has no variable"),
+            )
+            .help("assign one; until then it bears a made-up name"),
+        );
+        Operand::new(self.made_up(at, what), node.span)
+    }
+
+    pub(super) fn set(&mut self, at: usize, pin: &str, signal: Signal) {
+        self.signals.insert((at, pin.to_uppercase()), signal);
+    }
+
+    /// The pin of `node` that `pin` means. Exporters leave the name out, or
+    /// give one (`output`) to elements that have no pins.
+    fn pin_of(&self, node: usize, pin: &str) -> String {
+        let wanted = pin.to_uppercase();
+        if self.signals.contains_key(&(node, wanted.clone())) {
+            return wanted;
+        }
+        let outputs = self.diagram.nodes.get(node).map(|node| &node.outputs);
+        let mut others = outputs
+            .into_iter()
+            .flatten()
+            .map(|output| output.pin.to_uppercase())
+            .filter(|pin| pin != "ENO");
+        others.next().unwrap_or_default()
+    }
+
+    /// The signal of an output already set.
+    pub(super) fn own_signal(&self, at: usize, pin: &str) -> Option<Signal> {
+        self.signals.get(&(at, pin.to_uppercase())).cloned()
+    }
+
+    /// Whether anything is fed by a node.
+    pub(super) fn feeds(&self, at: usize) -> bool {
+        self.body
+            .consumers
+            .get(at)
+            .is_some_and(|list| !list.is_empty())
+    }
+
+    /// What a connection hands to the element at `at`.
+    pub(super) fn signal(&mut self, at: usize, source: &Source) -> Signal {
+        let Some(from) = self.diagram.nodes.get(source.node) else {
+            return Signal::value(Term::truth(false, source.span), Some(true), source.span);
+        };
+        match from.kind {
+            NodeKind::LeftRail => return Signal::rail(from.span),
+            NodeKind::RightRail => {
+                return Signal::value(Term::truth(false, source.span), Some(true), source.span);
+            }
+            _ => {}
+        }
+        let turn = |node: usize| self.body.turns.get(node).copied();
+        if turn(source.node) >= turn(at) {
+            return self.recalled(from, source);
+        }
+        let pin = self.pin_of(source.node, &source.pin);
+        match self.signals.get(&(source.node, pin)) {
+            Some(signal) => signal.clone(),
+            None => Signal::value(Term::truth(false, source.span), Some(true), source.span),
+        }
+    }
+
+    /// What comes from an element that is solved later: a variable or a block's
+    /// output as the last scan left it; anything else is a circle, and off.
+    fn recalled(&mut self, from: &'a Node, source: &Source) -> Signal {
+        let path = match (&from.kind, &from.operand) {
+            (NodeKind::InOutVariable { .. }, Some(text)) => text.value.clone(),
+            (NodeKind::Block(block), _) => {
+                let pin = match source.pin.as_str() {
+                    "" => from.outputs.first().map_or("OUT", |output| &output.pin),
+                    pin => pin,
+                };
+                let instance = block.instance.as_ref();
+                instance.map_or_else(String::new, |text| format!("{}.{pin}", text.value))
+            }
+            _ => String::new(),
+        };
+        if path.is_empty() {
+            return Signal::value(Term::truth(false, source.span), Some(true), source.span);
+        }
+        let boolean = self.body.names.is_boolean(self.body.unit, &path);
+        let name = self.body.names.fold(self.body.unit, &path);
+        let term = Term::variable(Operand::new(name, source.span));
+        Signal::value(term, boolean, source.span)
+    }
+
+    /// The power of a connection; an element is made for it where the signal
+    /// is a value so far.
+    pub(super) fn power(&mut self, at: usize, source: &Source) -> Vec<Tap> {
+        let signal = self.signal(at, source);
+        if let Some(taps) = signal.taps {
+            return taps;
+        }
+        let taps = vec![self.element_for(&signal)];
+        let pin = self.pin_of(source.node, &source.pin);
+        if let Some(kept) = self.signals.get_mut(&(source.node, pin))
+            && kept.term == signal.term
+        {
+            kept.taps = Some(taps.clone());
+        }
+        taps
+    }
+
+    /// An element that is on while the signal's term is.
+    pub(super) fn element_for(&mut self, signal: &Signal) -> Tap {
+        let contact = |operand: Operand, kind| ElementKind::Contact(Contact { operand, kind });
+        let kind = match &signal.term.form {
+            Form::Truth(true) | Form::Integer(1) => return (Network::rail(), Port::Power),
+            Form::Truth(false) | Form::Integer(0) => ElementKind::Open,
+            Form::Not(operand) => contact(operand.clone(), ContactKind::Closed),
+            Form::Relation(left, relation, right) => ElementKind::Comparison(Comparison {
+                left: left.clone(),
+                relation: *relation,
+                right: right.clone(),
+            }),
+            _ => contact(signal.term.operand(), ContactKind::Open),
+        };
+        let rail = [Network::rail()];
+        (
+            self.builder.add_after(&rail, kind, signal.span),
+            Port::Power,
+        )
+    }
+
+    /// The power that arrives at an input, its marks applied.
+    pub(super) fn arrival(&mut self, at: usize, input: &Input) -> Arrival {
+        let made_up = self.made_up(at, "power");
+        let mut taps = Vec::new();
+        let mut terms = Vec::new();
+        for source in &input.sources {
+            terms.push(self.signal(at, source).term);
+            taps.extend(self.power(at, source));
+        }
+        let on = |term: &Term| term.form == Form::Truth(true);
+        let mut term = if terms.is_empty() {
+            Term::truth(false, input.span)
+        } else if terms.iter().any(on) {
+            Term::truth(true, input.span)
+        } else {
+            Term::joined(terms, "OR", input.span, &made_up)
+        };
+        if input.negated {
+            let element = self.after(&taps, ElementKind::Invert, input.span);
+            taps = vec![(element, Port::Power)];
+            term = term.complement(input.span, &made_up);
+        }
+        if let Some(edge) = input.edge {
+            let kind = ElementKind::OneShot(OneShot { edge, memory: None });
+            let element = self.after(&taps, kind, input.span);
+            taps = vec![(element, Port::Power)];
+            let text = format!("{}({})", edge_word(edge), term.text);
+            term = Term::composed(text, &[term], input.span, &made_up);
+        }
+        Arrival { taps, term }
+    }
+
+    /// The power that arrives at an element without pins.
+    pub(super) fn main_arrival(&mut self, at: usize, node: &'a Node, what: &str) -> Arrival {
+        let input = node.inputs.first();
+        let connected = input.is_some_and(|input| !input.sources.is_empty() || input.broken);
+        if !connected {
+            self.report(
+                Diagnostic::new(
+                    codes::DANGLING_CONNECTION,
+                    node.span,
+                    format!("nothing is connected to this {what}"),
+                )
+                .help("connect it on its left; until then it gets no power"),
+            );
+        }
+        match input {
+            Some(input) => self.arrival(at, input),
+            None => Arrival {
+                taps: Vec::new(),
+                term: Term::truth(false, node.span),
+            },
+        }
+    }
+
+    /// Adds an element after a parallel connection.
+    pub(super) fn after(&mut self, taps: &[Tap], kind: ElementKind, span: Span) -> NodeIndex {
+        let element = self.builder.add(kind, span);
+        self.join(taps, element, Port::Power);
+        element
+    }
+
+    /// Joins a parallel connection to a port of an element added later.
+    pub(super) fn join(&mut self, taps: &[Tap], to: NodeIndex, port: Port) {
+        for (from, leaves) in taps {
+            let wire = Wire {
+                from: leaves.clone(),
+                to: port.clone(),
+                ..Wire::default()
+            };
+            let drawn = self.builder.join(*from, to, wire);
+            debug_assert!(drawn, "elements are added in the order of solving");
+        }
+    }
+}
+
+/// Power that is always on.
+pub(super) fn rail() -> Vec<Tap> {
+    vec![(Network::rail(), Port::Power)]
+}
+
+pub(super) fn edge_word(edge: Edge) -> &'static str {
+    match edge {
+        Edge::Rising => "R_EDGE",
+        Edge::Falling => "F_EDGE",
+    }
+}

@@ -1,0 +1,246 @@
+//! What leaves an output: power, a value, or both.
+//!
+//! A wire of a drawing carries a Boolean or a value, and nothing on it says
+//! which. A [`Signal`] keeps both readings open: the elements that power
+//! leaves from, if it is power, and the [`Term`] that says it in words. Which
+//! one is used is the consumer's choice: a coil takes power, an adder takes
+//! the term.
+
+use logic::{Name, Relation};
+use petgraph::graph::NodeIndex;
+use source::Span;
+
+use super::expression::{self, Meaning};
+use super::names::Names;
+use super::xml::Text;
+use crate::{Network, Operand, Port, Value};
+
+/// Terms longer than this are not spelt out: nested blocks that use a value
+/// twice would double them at each level.
+const LONGEST: usize = 300;
+
+/// An element and the port that power leaves it from.
+pub(super) type Tap = (NodeIndex, Port);
+
+/// What leaves an output.
+#[derive(Clone, Debug)]
+pub(super) struct Signal {
+    /// Where power leaves; on if any of them is. `None` while nobody asked for
+    /// power and no element stands for the term.
+    pub(super) taps: Option<Vec<Tap>>,
+    /// Whether it is a Boolean; `None` if that is not known.
+    pub(super) boolean: Option<bool>,
+    pub(super) term: Term,
+    /// The element that shows it.
+    pub(super) span: Span,
+}
+
+impl Signal {
+    /// The left rail.
+    pub(super) fn rail(span: Span) -> Self {
+        Self {
+            taps: Some(vec![(Network::rail(), Port::Power)]),
+            boolean: Some(true),
+            term: Term::truth(true, span),
+            span,
+        }
+    }
+
+    /// Power that leaves an element.
+    pub(super) fn power(element: NodeIndex, port: Port, term: Term, span: Span) -> Self {
+        Self {
+            taps: Some(vec![(element, port)]),
+            boolean: Some(true),
+            term,
+            span,
+        }
+    }
+
+    /// A value that no element stands for.
+    pub(super) fn value(term: Term, boolean: Option<bool>, span: Span) -> Self {
+        Self {
+            taps: None,
+            boolean,
+            term,
+            span,
+        }
+    }
+}
+
+/// A value in words, with what is known of it.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Term {
+    pub(super) text: Name,
+    pub(super) span: Span,
+    pub(super) form: Form,
+    pub(super) reads: Vec<Operand>,
+    /// The function that made it; `MOVE` where none did.
+    pub(super) mnemonic: Name,
+}
+
+/// The form of a term.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Form {
+    Variable,
+    Truth(bool),
+    Integer(i64),
+    /// A constant of another kind.
+    Literal,
+    /// The complement of a variable.
+    Not(Operand),
+    /// A comparison.
+    Relation(Operand, Relation, Operand),
+    /// A variable plus a constant.
+    Sum(Name, i64),
+    /// Anything else.
+    Other,
+}
+
+impl Term {
+    /// The expression `text` of a unit.
+    pub(super) fn of(text: &Text, unit: usize, names: &mut Names) -> Self {
+        let value = text.value.as_str();
+        let place = |range: &std::ops::Range<usize>| part(text, range);
+        let rewritten = names.rewrite(unit, value);
+        let reads: Vec<_> = rewritten
+            .reads
+            .iter()
+            .map(|(name, range)| Operand::new(name.clone(), place(range)))
+            .collect();
+        let mut side = |range: std::ops::Range<usize>| {
+            let term = names.rewrite(unit, value.get(range.clone()).unwrap_or_default());
+            let number = expression::integer(&term.text);
+            let name = number.map_or(term.text, |number| number.to_string());
+            Operand::new(name, part(text, &range))
+        };
+        let (folded, form) = match expression::meaning(value) {
+            Meaning::Variable => (rewritten.text, Form::Variable),
+            Meaning::Truth(truth) => (truth_word(truth).to_owned(), Form::Truth(truth)),
+            Meaning::Integer(number) => (number.to_string(), Form::Integer(number)),
+            Meaning::Literal => (rewritten.text, Form::Literal),
+            Meaning::Not(inner) => (rewritten.text, Form::Not(side(inner))),
+            Meaning::Relation(left, relation, right) => {
+                let (left, right) = (side(left), side(right));
+                (rewritten.text, Form::Relation(left, relation, right))
+            }
+            Meaning::Term => (rewritten.text, Form::Other),
+        };
+        Self {
+            text: folded.into(),
+            span: text.span,
+            form,
+            reads,
+            mnemonic: "MOVE".into(),
+        }
+    }
+
+    /// A variable by its folded name.
+    pub(super) fn variable(operand: Operand) -> Self {
+        Self {
+            text: operand.name.clone(),
+            span: operand.span,
+            form: Form::Variable,
+            reads: vec![operand],
+            mnemonic: "MOVE".into(),
+        }
+    }
+
+    pub(super) fn truth(truth: bool, span: Span) -> Self {
+        Self {
+            text: truth_word(truth).into(),
+            span,
+            form: Form::Truth(truth),
+            reads: Vec::new(),
+            mnemonic: "MOVE".into(),
+        }
+    }
+
+    /// `text`, made of `parts`; a made-up name if that is too long.
+    pub(super) fn composed(text: String, parts: &[Term], span: Span, made_up: &Name) -> Self {
+        let mut reads: Vec<Operand> = Vec::new();
+        for read in parts.iter().flat_map(|part| &part.reads).take(LONGEST) {
+            if !reads.contains(read) {
+                reads.push(read.clone());
+            }
+        }
+        let text = if text.len() > LONGEST {
+            made_up.clone()
+        } else {
+            text.into()
+        };
+        Self {
+            text,
+            span,
+            form: Form::Other,
+            reads,
+            mnemonic: "MOVE".into(),
+        }
+    }
+
+    /// The complement.
+    pub(super) fn complement(&self, span: Span, made_up: &Name) -> Self {
+        let mut term = match &self.form {
+            Form::Truth(truth) => return Self::truth(!truth, span),
+            Form::Not(operand) => return Self::variable(operand.clone()),
+            Form::Variable => Self::composed(
+                format!("NOT {}", self.text),
+                std::slice::from_ref(self),
+                span,
+                made_up,
+            ),
+            _ => Self::composed(
+                format!("NOT ({})", self.text),
+                std::slice::from_ref(self),
+                span,
+                made_up,
+            ),
+        };
+        if self.form == Form::Variable {
+            term.form = Form::Not(Operand::new(self.text.clone(), self.span));
+        }
+        term
+    }
+
+    /// All of `parts`, joined by `word`.
+    pub(super) fn joined(parts: Vec<Term>, word: &str, span: Span, made_up: &Name) -> Self {
+        if let [only] = parts.as_slice() {
+            return only.clone();
+        }
+        let texts: Vec<_> = parts.iter().map(|part| &*part.text).collect();
+        let text = format!("({})", texts.join(&format!(" {word} ")));
+        Self::composed(text, &parts, span, made_up)
+    }
+
+    /// As an operand of a comparison or a pin.
+    pub(super) fn operand(&self) -> Operand {
+        Operand::new(self.text.clone(), self.span)
+    }
+
+    /// As what is written to `target`.
+    pub(super) fn written_to(&self, target: &Operand) -> Value {
+        match &self.form {
+            Form::Integer(number) => Value::Constant(*number),
+            Form::Truth(truth) => Value::Constant((*truth).into()),
+            Form::Variable => Value::Copy(self.operand()),
+            Form::Sum(variable, amount) if *variable == target.name => Value::Increment(*amount),
+            _ => Value::Term {
+                text: self.text.clone(),
+                reads: self.reads.clone(),
+            },
+        }
+    }
+}
+
+fn truth_word(truth: bool) -> &'static str {
+    if truth { "TRUE" } else { "FALSE" }
+}
+
+/// The bytes of a part of a text. Where its value has another length than its
+/// bytes (an entity), the bytes of the whole.
+fn part(text: &Text, range: &std::ops::Range<usize>) -> Span {
+    if text.value.len() != text.span.len() {
+        return text.span;
+    }
+    let start = text.span.start as usize;
+    Span::new(start + range.start, start + range.end)
+}

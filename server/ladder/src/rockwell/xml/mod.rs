@@ -1,0 +1,354 @@
+//! An XML document as a flat list of nodes, each with its place in the file.
+//!
+//! Not a general library: no namespaces, no entities but the five of XML
+//! itself, no comments kept. What it adds to the pull reader is what a ladder
+//! file needs: every element's bytes, text that maps back to the file
+//! ([`Passage`](super::passage::Passage)), and a tree that survives a file that was cut short: elements
+//! that never ended are there, marked as incomplete.
+
+mod attributes;
+mod element;
+
+use std::ops::Range;
+
+use quick_xml::events::{BytesRef, Event};
+use quick_xml::{Error, Reader};
+use source::{Diagnostic, Span, codes};
+
+use attributes::Attributes;
+
+pub(super) use element::Element;
+
+use crate::reading::Source;
+
+/// Deepest nesting that is read. Exports stay below 30.
+const DEEPEST: usize = 256;
+
+/// A document. Node 0, where there is one, is the root element.
+pub(super) struct Document<'t> {
+    source: Source<'t>,
+    nodes: Vec<Node>,
+}
+
+#[derive(Clone, Copy)]
+struct Node {
+    kind: NodeKind,
+    /// The whole node, in bytes of the text.
+    start: usize,
+    end: usize,
+    /// What is inside: the tag's name and attributes, or the text.
+    inner_start: usize,
+    inner_end: usize,
+    first_child: Option<usize>,
+    last_child: Option<usize>,
+    next: Option<usize>,
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum NodeKind {
+    Element { name_length: usize, complete: bool },
+    Text,
+    Character(char),
+}
+
+/// Reads `source`; what is wrong with it is added to `diagnostics`, and what
+/// stood before the fault is kept.
+pub(super) fn read<'t>(source: Source<'t>, diagnostics: &mut Vec<Diagnostic>) -> Document<'t> {
+    let mut document = Document {
+        source,
+        nodes: Vec::new(),
+    };
+    if let Err(diagnostic) = document.fill() {
+        diagnostics.push(*diagnostic);
+    }
+    document
+}
+
+impl<'t> Document<'t> {
+    /// The root element.
+    pub(super) fn root(&self) -> Option<Element<'_, 't>> {
+        let at = self.nodes.iter().position(Node::is_element)?;
+        Some(Element { document: self, at })
+    }
+
+    fn fill(&mut self) -> Result<(), Box<Diagnostic>> {
+        let text = self.source.text;
+        let mut reader = Reader::from_str(text);
+        let mut open: Vec<usize> = Vec::new();
+        loop {
+            let start = reader.buffer_position() as usize;
+            let event = match reader.read_event() {
+                Ok(event) => event,
+                Err(error) => {
+                    let at = (reader.error_position() as usize).min(text.len());
+                    return Err(self.fault(&error, at, &open));
+                }
+            };
+            let end = reader.buffer_position() as usize;
+            match event {
+                Event::Start(tag) => {
+                    let name_length = tag.name().into_inner().len();
+                    let at =
+                        self.add_element(start, end, start + 1..end - 1, name_length, &open)?;
+                    open.push(at);
+                    if open.len() > DEEPEST {
+                        return Err(self.too_deep(start, end));
+                    }
+                }
+                Event::Empty(tag) => {
+                    let name_length = tag.name().into_inner().len();
+                    let at =
+                        self.add_element(start, end, start + 1..end - 2, name_length, &open)?;
+                    self.close(at, end);
+                }
+                Event::End(_) => {
+                    if let Some(at) = open.pop() {
+                        self.close(at, end);
+                    }
+                }
+                Event::Text(_) => self.add_text(start..end, &open),
+                Event::CData(_) => {
+                    let inner = start + "<![CDATA[".len()..end.saturating_sub("]]>".len());
+                    self.add_text(inner, &open);
+                }
+                Event::GeneralRef(entity) => match character(&entity) {
+                    Some(character) => {
+                        self.add(
+                            NodeKind::Character(character),
+                            start..end,
+                            start..end,
+                            &open,
+                        );
+                    }
+                    None => return Err(self.unknown_entity(start, end)),
+                },
+                Event::DocType(doctype) => {
+                    if doctype.contains('[') {
+                        return Err(self.refused_doctype(start, end));
+                    }
+                }
+                Event::Comment(_) | Event::Decl(_) | Event::PI(_) => {}
+                Event::Eof => {
+                    return match open.last() {
+                        Some(&at) => Err(self.cut_short(at)),
+                        None => Ok(()),
+                    };
+                }
+            }
+        }
+    }
+
+    fn add_element(
+        &mut self,
+        start: usize,
+        end: usize,
+        inner: Range<usize>,
+        name_length: usize,
+        open: &[usize],
+    ) -> Result<usize, Box<Diagnostic>> {
+        let kind = NodeKind::Element {
+            name_length,
+            complete: false,
+        };
+        let inner = inner.start..inner.end.max(inner.start);
+        let tag = self.source.text.get(inner.clone()).unwrap_or_default();
+        let mut attributes = Attributes::of(tag, name_length);
+        while attributes.next().is_some() {}
+        if let Some(at) = attributes.fault {
+            let place = self.source.base + inner.start + at;
+            return Err(Box::new(
+                Diagnostic::new(
+                    codes::XML_SYNTAX,
+                    Span::at(place),
+                    "an attribute is not of the form name=\"value\"",
+                )
+                .help("what stood before this place is read; export the file again"),
+            ));
+        }
+        Ok(self.add(kind, start..end, inner, open))
+    }
+
+    fn add_text(&mut self, range: Range<usize>, open: &[usize]) {
+        let text = self.source.text.get(range.clone()).unwrap_or_default();
+        if !text.trim().is_empty() && !open.is_empty() {
+            self.add(NodeKind::Text, range.clone(), range, open);
+        }
+    }
+
+    fn add(
+        &mut self,
+        kind: NodeKind,
+        whole: Range<usize>,
+        inner: Range<usize>,
+        open: &[usize],
+    ) -> usize {
+        let at = self.nodes.len();
+        self.nodes.push(Node {
+            kind,
+            start: whole.start,
+            end: whole.end,
+            inner_start: inner.start,
+            inner_end: inner.end,
+            first_child: None,
+            last_child: None,
+            next: None,
+        });
+        let Some(&parent) = open.last() else {
+            return at;
+        };
+        let before = self.nodes[parent].last_child.replace(at);
+        match before {
+            Some(sibling) => self.nodes[sibling].next = Some(at),
+            None => self.nodes[parent].first_child = Some(at),
+        }
+        at
+    }
+
+    fn close(&mut self, at: usize, end: usize) {
+        let node = &mut self.nodes[at];
+        node.end = end;
+        if let NodeKind::Element { complete, .. } = &mut node.kind {
+            *complete = true;
+        }
+    }
+
+    fn name_at(&self, at: usize) -> &'t str {
+        let node = &self.nodes[at];
+        let NodeKind::Element { name_length, .. } = node.kind else {
+            return "";
+        };
+        let range = node.inner_start..node.inner_start + name_length;
+        self.source.text.get(range).unwrap_or_default()
+    }
+
+    fn fault(&self, error: &Error, at: usize, open: &[usize]) -> Box<Diagnostic> {
+        if let (Error::Syntax(_), Some(&element)) = (error, open.last()) {
+            // The reader met the end of the file inside a tag or a section.
+            return self.cut_short(element);
+        }
+        let place = self.source.span(at, at);
+        let message = format!("the XML is not well formed: {error}");
+        Box::new(
+            Diagnostic::new(codes::XML_SYNTAX, place, message)
+                .help("what stood before this place is read; export the file again"),
+        )
+    }
+
+    fn cut_short(&self, element: usize) -> Box<Diagnostic> {
+        let node = &self.nodes[element];
+        let message = format!(
+            "the file ends inside the element `{}`, which began here",
+            self.name_at(element)
+        );
+        let tag = self.source.span(node.start, node.inner_end + 1);
+        Box::new(
+            Diagnostic::new(codes::CUT_SHORT, tag, message)
+                .help("copy or export the file again; what was complete is read"),
+        )
+    }
+
+    fn unknown_entity(&self, start: usize, end: usize) -> Box<Diagnostic> {
+        let written = self.source.text.get(start..end).unwrap_or_default();
+        let message = format!("`{written}` is no entity that XML defines");
+        let place = self.source.span(start, end);
+        Box::new(
+            Diagnostic::new(codes::XML_SYNTAX, place, message)
+                .help("write the character itself, or its number such as `&#233;`"),
+        )
+    }
+
+    fn refused_doctype(&self, start: usize, end: usize) -> Box<Diagnostic> {
+        Box::new(
+            Diagnostic::new(
+                codes::XML_REFUSED,
+                self.source.span(start, end),
+                "the document type declares entities or elements of its own, which are not expanded",
+            )
+            .help("remove the `<!DOCTYPE ...>` declaration"),
+        )
+    }
+
+    fn too_deep(&self, start: usize, end: usize) -> Box<Diagnostic> {
+        let message = format!("elements are nested deeper than {DEEPEST}");
+        Box::new(
+            Diagnostic::new(codes::XML_REFUSED, self.source.span(start, end), message)
+                .help("no export nests so deep; what stood before this place is read"),
+        )
+    }
+}
+
+impl Node {
+    fn is_element(&self) -> bool {
+        matches!(self.kind, NodeKind::Element { .. })
+    }
+}
+
+/// The character that `&amp;` or `&#38;` stands for.
+fn character(entity: &BytesRef<'_>) -> Option<char> {
+    if entity.is_char_ref() {
+        return entity.resolve_char_ref().ok().flatten();
+    }
+    match &**entity {
+        "lt" => Some('<'),
+        "gt" => Some('>'),
+        "amp" => Some('&'),
+        "apos" => Some('\''),
+        "quot" => Some('"'),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn check(text: &str) -> (Document<'_>, Vec<String>) {
+        let mut diagnostics = Vec::new();
+        let document = read(Source { text, base: 0 }, &mut diagnostics);
+        let codes = diagnostics.iter().map(|d| d.code.to_string()).collect();
+        (document, codes)
+    }
+
+    #[test]
+    fn elements_attributes_and_text_know_their_places() {
+        let text = "<a>\n<b k = 'v&amp;w'  x=\"\">one<![CDATA[<two>]]></b></a>";
+        let (document, codes) = check(text);
+        assert!(codes.is_empty());
+        let b = document.root().and_then(|a| a.child("B")).expect("b");
+        assert_eq!(b.attribute("K").as_deref(), Some("v&w"));
+        assert_eq!(b.attribute("x").as_deref(), Some(""));
+        let passage = b.passage();
+        assert_eq!(passage.text(), "one<two>");
+        assert_eq!(&text[passage.span(3..8).range()], "<two>");
+        assert!(text[b.span().range()].starts_with("<b k"));
+    }
+
+    #[test]
+    fn what_stood_before_a_fault_is_kept() {
+        for (text, code) in [
+            ("<a><b/><c>", "G1006"),
+            ("<a><b/><c x=\"", "G1006"),
+            ("<a><b/><![CDATA[ x", "G1006"),
+            ("<a><b/></c></a>", "G1004"),
+            ("<a><b/><c x/></a>", "G1004"),
+            ("<a><b/>&nbsp;</a>", "G1004"),
+        ] {
+            let (document, codes) = check(text);
+            assert_eq!(codes, [code], "{text}");
+            let root = document.root().expect("root");
+            assert!(!root.is_complete(), "{text}");
+            assert!(root.child("b").is_some_and(Element::is_complete), "{text}");
+        }
+    }
+
+    #[test]
+    fn constructs_that_could_grow_without_bound_are_refused() {
+        let (_, codes) = check("<!DOCTYPE a [<!ENTITY x \"y\">]><a>&x;</a>");
+        assert_eq!(codes, ["G1005"]);
+        let deep = "<a>".repeat(300);
+        let (_, codes) = check(&deep);
+        assert_eq!(codes, ["G1005"]);
+        let (_, codes) = check("<!DOCTYPE a><a/>");
+        assert!(codes.is_empty());
+    }
+}

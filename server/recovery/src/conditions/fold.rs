@@ -1,0 +1,128 @@
+//! From the writes of a variable to its next value.
+
+use std::collections::BTreeMap;
+
+use ladder::CoilKind;
+use logic::{Atom, AtomId, Budget, Function, Stop};
+
+use super::{Variable, Walk, Write, WriteKind};
+
+/// One variable for every target of `writes`, which stand in the order of the
+/// scan.
+pub(super) fn variables(writes: Vec<Write>, walk: &mut Walk<'_>) -> Vec<Variable> {
+    let mut by_target: BTreeMap<AtomId, Vec<Write>> = BTreeMap::new();
+    for write in writes {
+        by_target.entry(write.target).or_default().push(write);
+    }
+    by_target
+        .into_iter()
+        .filter(|(_, writes)| writes.iter().any(is_coil_or_copy))
+        .map(|(atom, writes)| variable(atom, writes, walk))
+        .collect()
+}
+
+/// A word that is only moved about has no conditions of its own; its bits do
+/// when a coil writes them, or when they are copies of bits that coils write.
+fn is_coil_or_copy(write: &Write) -> bool {
+    matches!(write.kind, WriteKind::Coil(_) | WriteKind::BitOf(_))
+}
+
+fn variable(atom: AtomId, writes: Vec<Write>, walk: &mut Walk<'_>) -> Variable {
+    let next = next_value(atom, &writes, Skipping::Keeps, walk.budget);
+    let always = next_value(atom, &writes, Skipping::Never, walk.budget);
+    let holds = |next: &Result<Function, Stop>| {
+        next.as_ref()
+            .is_ok_and(|function| function.depends_on(atom))
+    };
+    let closed_contacts = writes
+        .iter()
+        .flat_map(|write| write.closed_contacts.iter().copied())
+        .filter(|other| *other != atom)
+        .collect::<std::collections::BTreeSet<_>>();
+    Variable {
+        name: match walk.atoms.atom(atom) {
+            Atom::Variable(name) => name.clone(),
+            other => other.to_string().into(),
+        },
+        atom,
+        kept_when_skipped: holds(&next) && !holds(&always),
+        closed_contacts: closed_contacts.into_iter().collect(),
+        next,
+        writes,
+    }
+}
+
+/// Whether rungs may be skipped.
+#[derive(Clone, Copy, PartialEq)]
+enum Skipping {
+    /// A skipped rung keeps what is there.
+    Keeps,
+    /// Every rung is taken to be solved.
+    Never,
+}
+
+/// The value of `atom` after the scan: its writes, one after the other.
+fn next_value(
+    atom: AtomId,
+    writes: &[Write],
+    skipping: Skipping,
+    budget: &Budget,
+) -> Result<Function, Stop> {
+    let before_scan = Function::atom(atom);
+    let mut value = before_scan.clone();
+    let mut before_rung = value.clone();
+    let mut rung = None;
+    for write in writes {
+        let here = (write.place.routine, write.place.rung);
+        if rung != Some(here) {
+            rung = Some(here);
+            before_rung = value.clone();
+        }
+        let seen = if write.sees_earlier {
+            &value
+        } else {
+            &before_rung
+        };
+        let guard = write.guard.clone()?.substitute(atom, seen, budget)?;
+        let written = apply(&write.kind, &guard, &write.zone.clone()?, &value, budget)?;
+        value = match skipping {
+            Skipping::Never => written,
+            Skipping::Keeps => {
+                let solved = write.solved.clone()?;
+                written
+                    .and(&solved, budget)?
+                    .or(&value.and_not(&solved, budget)?, budget)?
+            }
+        };
+    }
+    Ok(value)
+}
+
+/// The value after one write that is solved.
+fn apply(
+    kind: &WriteKind,
+    guard: &Function,
+    zone: &Function,
+    value: &Function,
+    budget: &Budget,
+) -> Result<Function, Stop> {
+    let chosen = |new: &Function| {
+        guard
+            .and(new, budget)?
+            .or(&value.and_not(guard, budget)?, budget)
+    };
+    match kind {
+        // In an unpowered zone power never arrives, so that a negated coil
+        // is written 0 there, not 1.
+        WriteKind::Coil(CoilKind::Negated) => zone.and_not(guard, budget),
+        // The edge of the power is an atom that `collect` put in the guard.
+        WriteKind::Coil(CoilKind::Plain | CoilKind::Rising | CoilKind::Falling) => {
+            guard.and(zone, budget)
+        }
+        WriteKind::Coil(CoilKind::Set) => value.or(&guard.and(zone, budget)?, budget),
+        WriteKind::Coil(CoilKind::Reset) => value.and_not(&guard.and(zone, budget)?, budget),
+        WriteKind::Bit(true) => value.or(&guard.and(zone, budget)?, budget),
+        WriteKind::Bit(false) => value.and_not(&guard.and(zone, budget)?, budget),
+        WriteKind::BitOf(source) | WriteKind::Unknown(source) => chosen(&Function::atom(*source)),
+    }
+}

@@ -1,0 +1,151 @@
+//! The conditions of every coil (semantics, section 2).
+//!
+//! [`conditions`] solves a program once, symbolically: it walks the rungs in
+//! the order of the scan, takes the guard of every coil off its network, and
+//! folds the writes of each variable into one function, its *next value*: what
+//! the variable holds after the scan, over the values that its contacts see.
+//! All conditions are cofactors of that function:
+//!
+//! | condition | of the next value g of Q |
+//! |---|---|
+//! | activation | `g` |
+//! | turns on | `g[Q:=0]` |
+//! | stays on | `g[Q:=1]` |
+//! | deactivation | `/g[Q:=1]` |
+//!
+//! For one plain coil g is its guard, so that this is the paper's definition;
+//! for a latch pair g is `(Q + set)*/reset` or `Q*/reset + set`, by the order
+//! of the rungs; for a coil driven from several rungs the last one decides.
+
+mod fold;
+mod naming;
+mod power;
+mod timers;
+mod writes;
+
+use std::collections::{HashMap, HashSet};
+
+use ladder::Program;
+use logic::{AtomId, Atoms, Budget, Expr, Function, Name, Stop};
+
+pub use naming::ordered_atoms;
+pub use power::{Powers, Walk, powers};
+pub use timers::TimerLaw;
+pub use writes::{Place, RegisterWrite, Write, WriteKind};
+
+/// The conditions of a whole program.
+#[derive(Clone, Debug)]
+pub struct Conditions {
+    /// Every atom that occurs: coils first, then inputs, then the rest.
+    pub atoms: Atoms,
+    /// Variables that a coil writes, in the order of their atoms.
+    pub variables: Vec<Variable>,
+    /// Atoms that stand for what an unknown box does.
+    pub opaque: HashSet<AtomId>,
+    /// Laws of timers, by the atom of their output.
+    pub timers: HashMap<AtomId, TimerLaw>,
+    /// Writes of whole numbers, in the order of the scan.
+    pub register_writes: Vec<RegisterWrite>,
+    places: HashMap<AtomId, usize>,
+}
+
+/// A variable that coils write, and its conditions.
+#[derive(Clone, Debug)]
+pub struct Variable {
+    /// Its name.
+    pub name: Name,
+    /// Its atom.
+    pub atom: AtomId,
+    /// All its writes, in the order of the scan.
+    pub writes: Vec<Write>,
+    /// Its value after a scan, over what its contacts see.
+    pub next: Result<Function, Stop>,
+    /// Whether `next` depends on the variable only because the rung that
+    /// writes it is skipped at times: it then keeps its value without having
+    /// been made to.
+    pub kept_when_skipped: bool,
+    /// Coils of other variables that stand as normally closed contacts before
+    /// its own, in the order of their atoms.
+    pub closed_contacts: Vec<AtomId>,
+}
+
+impl Variable {
+    /// `g[Q:=0]`: what starts it.
+    pub fn turns_on(&self) -> Result<Function, Stop> {
+        Ok(self.next.clone()?.restrict(self.atom, false))
+    }
+
+    /// `g[Q:=1]`: what keeps it.
+    pub fn stays_on(&self) -> Result<Function, Stop> {
+        Ok(self.next.clone()?.restrict(self.atom, true))
+    }
+
+    /// `/g[Q:=1]`: what ends it.
+    pub fn deactivation(&self) -> Result<Function, Stop> {
+        Ok(self.stays_on()?.not())
+    }
+
+    /// Whether the rung holds a state: its next value grows with its value.
+    pub fn is_persistent(&self, budget: &Budget) -> bool {
+        self.next.as_ref().is_ok_and(|next| {
+            next.depends_on(self.atom) && next.grows_in(self.atom, budget) == Ok(true)
+        })
+    }
+
+    /// Whether raising the coil makes its own condition fall (an oscillator).
+    pub fn falls_in_itself(&self, budget: &Budget) -> bool {
+        self.next.as_ref().is_ok_and(|next| {
+            next.depends_on(self.atom) && next.grows_in(self.atom, budget) == Ok(false)
+        })
+    }
+}
+
+impl Conditions {
+    /// The variable that `atom` is, if coils write it.
+    pub fn variable(&self, atom: AtomId) -> Option<&Variable> {
+        self.places.get(&atom).map(|&at| &self.variables[at])
+    }
+
+    /// The variable called `name`, if coils write it.
+    pub fn find(&self, name: &str) -> Option<&Variable> {
+        self.variable(self.atoms.find_variable(&name.into())?)
+    }
+
+    /// A function as a canonical expression.
+    pub fn expr(&self, function: &Function, budget: &Budget) -> Result<Expr, Stop> {
+        function.to_expr(&self.atoms, budget)
+    }
+
+    /// The opaque atoms that a function depends on.
+    pub fn opaque_in(&self, function: &Function) -> Vec<AtomId> {
+        let support = function.support().iter().copied();
+        support.filter(|atom| self.opaque.contains(atom)).collect()
+    }
+}
+
+/// The conditions of every coil of `program`, each operation within `budget`.
+pub fn conditions(program: &Program, budget: &Budget) -> Conditions {
+    let mut atoms = ordered_atoms(program);
+    let mut opaque = HashSet::new();
+    let mut walk = Walk {
+        atoms: &mut atoms,
+        opaque: &mut opaque,
+        budget,
+    };
+    let found = writes::collect(program, &mut walk);
+    let mut variables: Vec<Variable> = fold::variables(found.writes, &mut walk);
+    variables.sort_by_key(|variable| variable.atom);
+    let places = variables
+        .iter()
+        .enumerate()
+        .map(|(at, variable)| (variable.atom, at))
+        .collect();
+    Conditions {
+        variables,
+        timers: found.timers,
+        register_writes: found.register_writes,
+        opaque,
+        places,
+        atoms,
+    }
+}

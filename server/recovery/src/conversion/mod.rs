@@ -1,0 +1,60 @@
+//! From a ladder and the expert's decisions to a spec (semantics, section 5).
+//!
+//! [`spec`] is a function of the ladder and the decisions, and of nothing
+//! else. Before anything is accepted it gives the product form: every state a
+//! partial grafcet of two steps, off and on, which shows no sequence but does
+//! what the ladder does. Each accepted succession merges states into a
+//! sequence.
+
+mod actions;
+mod branches;
+mod decisions;
+mod interface;
+mod naming;
+mod product;
+mod register;
+mod sequence;
+mod wording;
+
+use grafcet::{Chart, Decision, Grafcet, Spec};
+use logic::Budget;
+
+pub use decisions::{Accept, Accepted, decide};
+
+use crate::Analysis;
+use naming::Names;
+use wording::Wording;
+
+/// The spec that the ladder and the decisions give.
+pub fn spec(analysis: &Analysis<'_>, decisions: &[Decision], budget: &Budget) -> Spec {
+    let accepted = Accepted::new(analysis, decisions);
+    let mut names = Names::new(analysis);
+    let mut wording = Wording::new(analysis, budget);
+    let mut chart = Chart::default();
+
+    register::name_steps(analysis, &mut names, &mut wording);
+    let sequences = sequence::plans(analysis, &accepted, &mut names, &mut wording, budget);
+    let memories = product::memories(analysis, &accepted, &mut names, &mut wording);
+
+    // All steps are named by now, so that every receptivity can speak of them.
+    register::draw(analysis, &accepted, &mut names, &wording, &mut chart);
+    for plan in &sequences {
+        plan.draw(analysis, &mut names, &wording, &mut chart);
+    }
+    product::draw(&memories, analysis, &mut names, &wording, &mut chart);
+    actions::add(
+        analysis, &sequences, &memories, &mut names, &wording, &mut chart,
+    );
+
+    let mut grafcet = Grafcet {
+        name: (!analysis.program.name.is_empty()).then(|| analysis.program.name.clone()),
+        chart,
+        ..Grafcet::default()
+    };
+    interface::declare(analysis, &mut grafcet);
+    Spec {
+        grafcet,
+        decisions: decisions.to_vec(),
+        ..Spec::default()
+    }
+}

@@ -1,0 +1,67 @@
+use ladder::ElementKind;
+use source::{Diagnostic, codes};
+
+use super::Subject;
+use crate::conditions::{Write, WriteKind};
+
+/// Coils whose condition is always true or never true, although contacts
+/// stand before them. A coil without a contact, or behind an always-false
+/// instruction, is meant so.
+pub(super) fn find(subject: &Subject<'_>) -> Vec<Diagnostic> {
+    let writes = subject.conditions.variables.iter().flat_map(|variable| {
+        variable
+            .writes
+            .iter()
+            .map(move |write| (&variable.name, write))
+    });
+    let mut found = Vec::new();
+    for (name, write) in writes {
+        let Ok(guard) = &write.guard else { continue };
+        if !matches!(write.kind, WriteKind::Coil(_)) || !has_contacts(subject, write) {
+            continue;
+        }
+        let span = subject.target_span(write);
+        if guard.is_true() {
+            found.push(Diagnostic::new(
+                codes::ALWAYS_TRUE,
+                span,
+                format!("the condition of `{name}` is always true"),
+            ));
+        } else if guard.is_false() && !is_switched_off(subject, write) {
+            found.push(Diagnostic::new(
+                codes::ALWAYS_FALSE,
+                span,
+                format!("the condition of `{name}` can never be true"),
+            ));
+        }
+    }
+    found
+}
+
+fn has_contacts(subject: &Subject<'_>, write: &Write) -> bool {
+    subject.rung(write.place).is_some_and(|rung| {
+        rung.network.elements().any(|(at, element)| {
+            at.index() < write.place.element
+                && matches!(
+                    element.kind,
+                    ElementKind::Contact(_) | ElementKind::Comparison(_)
+                )
+        })
+    })
+}
+
+/// Whether the rung holds an instruction that never passes power, or a
+/// constant: then it was switched off on purpose.
+fn is_switched_off(subject: &Subject<'_>, write: &Write) -> bool {
+    subject.rung(write.place).is_some_and(|rung| {
+        rung.network
+            .elements()
+            .any(|(_, element)| match &element.kind {
+                ElementKind::Open => true,
+                ElementKind::Contact(contact) => {
+                    matches!(&*contact.operand.name, "0" | "1" | "TRUE" | "FALSE")
+                }
+                _ => false,
+            })
+    })
+}

@@ -1,0 +1,243 @@
+//! Groups of rungs that depend on each other, and whether a group holds a
+//! sequence.
+//!
+//! Most ladder is interlock and device logic: "no sequence here" is an answer,
+//! and it comes with its reason.
+
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+
+use logic::{Atom, AtomId, Name};
+use petgraph::algo::kosaraju_scc;
+use petgraph::graph::{DiGraph, NodeIndex};
+use petgraph::unionfind::UnionFind;
+
+use crate::conditions::Conditions;
+use crate::registers::Register;
+use crate::states::States;
+use crate::successions::{Evidence, Succession};
+
+/// Variables that depend on each other, and what they hold.
+#[derive(Clone, Debug)]
+pub struct Group {
+    /// The states in the group, those of registers included, in order.
+    pub states: Vec<Name>,
+    /// Whether some of them follow each other.
+    pub sequence: bool,
+    /// Why, in a sentence without a full stop.
+    pub reason: String,
+    /// Pairs of states that only hand over to each other, such as opened and
+    /// closed.
+    pub mode_pairs: Vec<(Name, Name)>,
+}
+
+/// The groups that hold at least one state, in the order of their first.
+pub fn groups(
+    conditions: &Conditions,
+    states: &States,
+    registers: &[Register],
+    successions: &[Succession],
+) -> Vec<Group> {
+    let mut classes = dependent(conditions, registers);
+    // What hands over depends on each other through the plant, if not through
+    // a contact.
+    for succession in successions {
+        let atoms = (states.find(&succession.from), states.find(&succession.to));
+        if let (Evidence::Handover, (Some(from), Some(to))) = (succession.evidence, atoms) {
+            classes.join(from.atom, to.atom);
+        }
+    }
+    let mut members: BTreeMap<usize, Vec<Name>> = BTreeMap::new();
+    for state in &states.states {
+        let class = classes.class(state.atom);
+        members.entry(class).or_default().push(state.name.clone());
+    }
+    for (at, register) in registers.iter().enumerate() {
+        let class = classes.register_class(at);
+        let names = register.states.iter().map(|s| register.state_name(s.value));
+        members.entry(class).or_default().extend(names);
+    }
+    let mut group_of: HashMap<&Name, usize> = HashMap::new();
+    for (class, names) in &members {
+        group_of.extend(names.iter().map(|name| (name, *class)));
+    }
+    let mut arcs: BTreeMap<usize, Vec<&Succession>> = BTreeMap::new();
+    for succession in successions {
+        let certain = matches!(succession.evidence, Evidence::Written | Evidence::Handover);
+        if certain && let Some(class) = group_of.get(&succession.from) {
+            arcs.entry(*class).or_default().push(succession);
+        }
+    }
+    let mut groups: Vec<Group> = members
+        .iter()
+        .map(|(class, names)| judged(names, arcs.get(class).map_or(&[], Vec::as_slice)))
+        .collect();
+    groups.sort_by(|a, b| b.sequence.cmp(&a.sequence).then(a.states.cmp(&b.states)));
+    groups
+}
+
+/// Why a whole program holds no sequence, or that it does.
+pub fn verdict(groups: &[Group]) -> (bool, String) {
+    let with: Vec<&Group> = groups.iter().filter(|group| group.sequence).collect();
+    if let [only] = &with[..] {
+        return (true, only.reason.clone());
+    }
+    if !with.is_empty() {
+        return (
+            true,
+            format!("{} groups of rungs hold a sequence each", with.len()),
+        );
+    }
+    let reason = match groups {
+        [] => "no coil seals in, no variable is both latched and unlatched, and no number counts \
+               steps"
+            .to_owned(),
+        [only] => only.reason.clone(),
+        many => {
+            let pairs: usize = many.iter().map(|group| group.mode_pairs.len()).sum();
+            let states: usize = many.iter().map(|group| group.states.len()).sum();
+            format!(
+                "{states} states in {} independent groups of rungs, and in none does what ends \
+                 one start another{}",
+                many.len(),
+                if pairs == 0 {
+                    String::new()
+                } else {
+                    format!(", but for {pairs} pairs of modes")
+                }
+            )
+        }
+    };
+    (false, reason)
+}
+
+/// A group with its judgement: a sequence has at least three states, or a
+/// start and an end.
+fn judged(names: &[Name], arcs: &[&Succession]) -> Group {
+    let place: HashMap<&Name, NodeIndex> = names
+        .iter()
+        .enumerate()
+        .map(|(at, name)| (name, NodeIndex::new(at)))
+        .collect();
+    let mut graph: DiGraph<(), ()> = DiGraph::new();
+    for _ in names {
+        graph.add_node(());
+    }
+    for arc in arcs {
+        if let (Some(from), Some(to)) = (place.get(&arc.from), place.get(&arc.to)) {
+            graph.update_edge(*from, *to, ());
+        }
+    }
+    let mode_pairs: Vec<(Name, Name)> = kosaraju_scc(&graph)
+        .into_iter()
+        .filter_map(|class| mode_pair(&class, &graph))
+        .map(|(a, b)| (names[a.index()].clone(), names[b.index()].clone()))
+        .collect();
+    let in_pairs: BTreeSet<&Name> = mode_pairs.iter().flat_map(|(a, b)| [a, b]).collect();
+    let in_sequence = arcs
+        .iter()
+        .flat_map(|arc| [&arc.from, &arc.to])
+        .filter(|name| !in_pairs.contains(name))
+        .collect::<BTreeSet<_>>()
+        .len();
+    let reason = if in_sequence > 0 {
+        format!("{in_sequence} states hand over to each other")
+    } else if !mode_pairs.is_empty() {
+        let pairs: Vec<String> = mode_pairs
+            .iter()
+            .map(|(a, b)| format!("{a} and {b}"))
+            .collect();
+        format!(
+            "only modes that hand over to each other: {}",
+            pairs.join("; ")
+        )
+    } else if let [only] = names {
+        format!("a single state, {only}: nothing follows it")
+    } else {
+        format!(
+            "{} states, and in none does what ends one start another",
+            names.len()
+        )
+    };
+    Group {
+        states: names.to_vec(),
+        sequence: in_sequence > 0,
+        reason,
+        mode_pairs,
+    }
+}
+
+/// Two states that hand over to each other and to nobody else.
+fn mode_pair(class: &[NodeIndex], graph: &DiGraph<(), ()>) -> Option<(NodeIndex, NodeIndex)> {
+    let [a, b] = class else { return None };
+    let only = |one: NodeIndex, other: NodeIndex| {
+        graph.neighbors_undirected(one).all(|next| next == other)
+    };
+    (only(*a, *b) && only(*b, *a)).then_some((*a.min(b), *a.max(b)))
+}
+
+/// Classes of atoms and registers that depend on each other.
+struct Classes {
+    union: UnionFind<usize>,
+    atoms: usize,
+}
+
+impl Classes {
+    fn join(&mut self, a: AtomId, b: AtomId) {
+        self.union.union(a.0 as usize, b.0 as usize);
+    }
+
+    fn class(&mut self, atom: AtomId) -> usize {
+        self.union.find_mut(atom.0 as usize)
+    }
+
+    fn register_class(&mut self, register: usize) -> usize {
+        self.union.find_mut(self.atoms + register)
+    }
+}
+
+/// Joins what a coil writes with the written variables that it reads. Inputs
+/// join nothing: a stop button does not make two machines one.
+fn dependent(conditions: &Conditions, registers: &[Register]) -> Classes {
+    let atoms = conditions.atoms.len();
+    let mut union = UnionFind::new(atoms + registers.len());
+    let place: HashMap<&Name, usize> = registers
+        .iter()
+        .enumerate()
+        .map(|(at, register)| (&register.name, at))
+        .collect();
+    let mut join = |to: usize, atom: AtomId| {
+        if conditions.variable(atom).is_some() {
+            union.union(to, atom.0 as usize);
+        }
+        if let Some(timer) = conditions.timers.get(&atom)
+            && let Ok(input) = &timer.input
+        {
+            for read in input.support() {
+                if conditions.variable(*read).is_some() {
+                    union.union(to, read.0 as usize);
+                }
+            }
+        }
+        if let Atom::Comparison(comparison) = conditions.atoms.atom(atom)
+            && let Some(register) = place.get(&comparison.left)
+        {
+            union.union(to, atoms + register);
+        }
+    };
+    for variable in &conditions.variables {
+        let Ok(next) = &variable.next else { continue };
+        for atom in next.support() {
+            join(variable.atom.0 as usize, *atom);
+        }
+    }
+    for write in &conditions.register_writes {
+        let Some(register) = place.get(&write.target) else {
+            continue;
+        };
+        let Ok(guard) = &write.guard else { continue };
+        for atom in guard.support() {
+            join(atoms + register, *atom);
+        }
+    }
+    Classes { union, atoms }
+}

@@ -1,0 +1,126 @@
+//! Which step may follow which (semantics, section 3).
+//!
+//! For two states P and F the question is whether F follows P: whether what
+//! ends P is what starts F. The answers come in ranks of [`Evidence`]; the
+//! best come first. [`ranked`] looks at states only, `possible` and `cubes`
+//! at every coil, as the paper does.
+
+mod cubes;
+mod handover;
+mod kind;
+mod possible;
+mod shared;
+
+use logic::{AtomId, Budget, Function, Name};
+
+pub use cubes::cubes;
+pub(crate) use handover::{handed_over, started_apart};
+pub use possible::possible;
+
+use crate::conditions::Conditions;
+use crate::registers::Register;
+use crate::states::States;
+
+/// Why a succession is suggested, strongest first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Evidence {
+    /// An arc of a step register, read off a write.
+    Written,
+    /// What ends the one is what starts the other.
+    Handover,
+    /// The two conditions share a variable and can hold together.
+    Possible,
+}
+
+impl Evidence {
+    /// The word used in answers.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Written => "written",
+            Self::Handover => "handover",
+            Self::Possible => "possible",
+        }
+    }
+}
+
+/// How a succession stands to others from the same state.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Kind {
+    /// Starts together with other followers.
+    And,
+    /// Starts instead of other followers.
+    Or,
+}
+
+impl Kind {
+    /// The word used in answers.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::And => "and",
+            Self::Or => "or",
+        }
+    }
+}
+
+/// A suggestion: `to` may follow `from`.
+#[derive(Clone, Debug)]
+pub struct Succession {
+    /// The state that ends.
+    pub from: Name,
+    /// The state that begins.
+    pub to: Name,
+    /// Why.
+    pub evidence: Evidence,
+    /// Together with the other followers of `from`, or instead of them.
+    pub kind: Kind,
+    /// When: the condition under which the one ends and the other begins.
+    pub condition: Option<Function>,
+}
+
+/// The most pairs that are looked at one by one. A program in which more
+/// share a condition gives no better answer for looking at all of them.
+const MOST_PAIRS: usize = 1_000_000;
+
+/// All suggestions for the states of a program, best first: arcs of step
+/// registers, handovers, then what is possible. Stops early, with what it
+/// has, when cancelled.
+pub fn ranked(
+    conditions: &Conditions,
+    states: &States,
+    registers: &[Register],
+    budget: &Budget,
+) -> Vec<Succession> {
+    let mut found: Vec<Succession> = registers.iter().flat_map(Register::successions).collect();
+    let handovers = handover::handovers(states, conditions, budget);
+    let rest = possible::among_states(states, &handovers, budget);
+    let mut by_rung: Vec<(AtomId, AtomId, Evidence, Option<Function>)> = handovers
+        .into_iter()
+        .map(|h| (h.from, h.to, Evidence::Handover, Some(h.condition)))
+        .chain(
+            rest.into_iter()
+                .map(|(from, to, condition)| (from, to, Evidence::Possible, condition)),
+        )
+        .collect();
+    by_rung.sort_by_key(|(from, to, evidence, _)| (*evidence, *from, *to));
+    let kinds = kind::kinds(&by_rung, states, budget);
+    found.extend(
+        by_rung
+            .into_iter()
+            .zip(kinds)
+            .map(|((from, to, evidence, condition), kind)| Succession {
+                from: name(conditions, from),
+                to: name(conditions, to),
+                evidence,
+                kind,
+                condition,
+            }),
+    );
+    found
+}
+
+fn name(conditions: &Conditions, atom: AtomId) -> Name {
+    match conditions.atoms.atom(atom) {
+        logic::Atom::Variable(name) => name.clone(),
+        other => other.to_string().into(),
+    }
+}

@@ -1,0 +1,92 @@
+//! The order-free form of the paper's rule.
+//!
+//! The paper's Algorithms 2 to 5 ask whether some assignment of the shared
+//! variables is part of a path of both diagrams; the answer depends on the
+//! order of variables. What the rule means does not: *the deactivation of P
+//! and the activation of F share a variable and can hold together*. That is
+//! one conjunction of two diagrams.
+
+use std::collections::HashSet;
+
+use logic::{AtomId, Budget, Function};
+
+use super::handover::Handover;
+use super::shared::ByAtom;
+use super::{Evidence, Kind, MOST_PAIRS, Succession, name};
+use crate::conditions::Conditions;
+use crate::states::States;
+
+/// Every pair of coils for which the rule holds, whatever they hold: the
+/// paper lets all rungs take part.
+pub fn possible(conditions: &Conditions, budget: &Budget) -> Vec<Succession> {
+    let coils: Vec<(AtomId, Function, Function)> = conditions
+        .variables
+        .iter()
+        .filter_map(|variable| {
+            let activation = variable.next.clone().ok()?;
+            Some((variable.atom, activation, variable.deactivation().ok()?))
+        })
+        .collect();
+    let starts = ByAtom::new(coils.iter().map(|(_, activation, _)| activation));
+    let mut found = Vec::new();
+    let mut tried = 0;
+    for (from, _, deactivation) in &coils {
+        if budget.cancel.is_cancelled() {
+            break;
+        }
+        for at in starts.sharing(deactivation, usize::MAX) {
+            let (to, activation, _) = &coils[at];
+            tried += 1;
+            if from == to || tried > MOST_PAIRS {
+                continue;
+            }
+            if let Ok(both) = deactivation.and(activation, budget)
+                && !both.is_false()
+            {
+                found.push(Succession {
+                    from: name(conditions, *from),
+                    to: name(conditions, *to),
+                    evidence: Evidence::Possible,
+                    kind: Kind::Or,
+                    condition: Some(both),
+                });
+            }
+        }
+    }
+    found
+}
+
+/// A variable that more states than this depend on does not tell them apart.
+const COMMON: usize = 40;
+
+/// What is possible between states and is no handover already.
+pub(super) fn among_states(
+    states: &States,
+    handovers: &[Handover],
+    budget: &Budget,
+) -> Vec<(AtomId, AtomId, Option<Function>)> {
+    let known: HashSet<(AtomId, AtomId)> = handovers.iter().map(|h| (h.from, h.to)).collect();
+    let starts = ByAtom::new(states.states.iter().map(|state| &state.turns_on));
+    let mut found = Vec::new();
+    for from in &states.states {
+        if budget.cancel.is_cancelled() {
+            break;
+        }
+        for at in starts.sharing(&from.deactivation, COMMON) {
+            let to = &states.states[at];
+            if from.atom == to.atom || known.contains(&(from.atom, to.atom)) {
+                continue;
+            }
+            let both = from
+                .deactivation
+                .restrict(to.atom, false)
+                .and(&to.turns_on.restrict(from.atom, true), budget);
+            if let Ok(both) = both
+                && !both.is_false()
+            {
+                found.push((from.atom, to.atom, Some(both)));
+            }
+        }
+    }
+    found
+}

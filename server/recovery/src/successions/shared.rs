@@ -1,0 +1,96 @@
+//! Which pairs of conditions are worth comparing.
+
+use std::collections::{BTreeSet, HashMap};
+
+use logic::{AtomId, Budget, Function};
+
+/// An index of functions by the atoms they depend on.
+#[derive(Debug, Default)]
+pub(super) struct ByAtom {
+    users: HashMap<AtomId, Vec<usize>>,
+}
+
+impl ByAtom {
+    /// Indexes functions by their place in the iteration.
+    pub(super) fn new<'f>(functions: impl IntoIterator<Item = &'f Function>) -> Self {
+        let mut users: HashMap<AtomId, Vec<usize>> = HashMap::new();
+        for (at, function) in functions.into_iter().enumerate() {
+            for atom in function.support() {
+                users.entry(*atom).or_default().push(at);
+            }
+        }
+        Self { users }
+    }
+
+    /// Places of the functions that share an atom with `function`, ascending,
+    /// not counting atoms that more than `most` functions depend on: a
+    /// condition that is common to all, such as an emergency stop, says
+    /// nothing about a sequence.
+    pub(super) fn sharing(&self, function: &Function, most: usize) -> BTreeSet<usize> {
+        function
+            .support()
+            .iter()
+            .filter_map(|atom| self.users.get(atom))
+            .filter(|users| users.len() <= most)
+            .flatten()
+            .copied()
+            .collect()
+    }
+}
+
+/// An index of functions by the literals they depend on: an atom counts as
+/// positive where raising it can raise the function, as negative where it can
+/// lower it.
+///
+/// A function implies another, neither constant, only if they share a literal
+/// (Lyndon's interpolation theorem), so that no implication is missed by
+/// comparing only functions that do. An emergency stop, a negative literal of
+/// all that starts and a positive one of all that ends, joins no pair.
+#[derive(Debug, Default)]
+pub(super) struct ByLiteral {
+    users: HashMap<(AtomId, bool), Vec<usize>>,
+}
+
+impl ByLiteral {
+    /// Indexes functions by their place in the iteration.
+    pub(super) fn new<'f>(
+        functions: impl IntoIterator<Item = &'f Function>,
+        budget: &Budget,
+    ) -> Self {
+        let mut users: HashMap<(AtomId, bool), Vec<usize>> = HashMap::new();
+        for (at, function) in functions.into_iter().enumerate() {
+            for literal in literals(function, budget) {
+                users.entry(literal).or_default().push(at);
+            }
+        }
+        Self { users }
+    }
+
+    /// Places of the functions that share a literal with `function`.
+    pub(super) fn sharing(&self, function: &Function, budget: &Budget) -> BTreeSet<usize> {
+        literals(function, budget)
+            .into_iter()
+            .filter_map(|literal| self.users.get(&literal))
+            .flatten()
+            .copied()
+            .collect()
+    }
+}
+
+fn literals(function: &Function, budget: &Budget) -> Vec<(AtomId, bool)> {
+    let mut literals = Vec::new();
+    for &atom in function.support() {
+        let (low, high) = (
+            function.restrict(atom, false),
+            function.restrict(atom, true),
+        );
+        // Where the budget does not allow to tell, both signs count.
+        if low.implies(&high, budget) != Ok(true) {
+            literals.push((atom, false));
+        }
+        if high.implies(&low, budget) != Ok(true) {
+            literals.push((atom, true));
+        }
+    }
+    literals
+}
