@@ -70,6 +70,39 @@ fn the_fixtures_of_the_project_come_back_whole() {
     }
 }
 
+/// Whatever format a fixture has: read, written and read again, every coil,
+/// move, timer and counter gets power under the same conditions.
+#[test]
+fn every_output_of_every_fixture_keeps_its_condition() {
+    let mut rungs = 0;
+    for path in text::fixtures() {
+        let bytes = std::fs::read(&path).expect("a readable file");
+        let read = ladder::read(&bytes).program;
+        let again = ladder::read(write(&read).text.as_bytes()).program;
+        for ((_, before), (_, after)) in read.rungs().zip(again.rungs()) {
+            // One shots of a single contact come back as edge contacts, whose
+            // memory is another.
+            let one_shot = |(_, element): (_, &ladder::Element)| {
+                matches!(element.kind, ElementKind::OneShot(_))
+            };
+            if before.network.elements().any(one_shot) {
+                continue;
+            }
+            rungs += 1;
+            for seed in 0..16 {
+                assert_eq!(
+                    text::powered(&before.network, seed),
+                    text::powered(&after.network, seed),
+                    "rung {} of {}",
+                    before.number,
+                    path.display()
+                );
+            }
+        }
+    }
+    assert!(rungs > 30, "only {rungs} rungs were compared");
+}
+
 /// A program with one rung.
 fn with_rung(network: Network) -> Program {
     let mut program = Program::empty(Format::Unknown);
@@ -169,6 +202,34 @@ fn a_rung_that_is_too_tangled_becomes_a_comment() {
         lost,
         ["a rung whose legs are bridged too often to be written"]
     );
+}
+
+#[test]
+fn a_network_may_nest_deeper_than_the_stack() {
+    // Each contact is fed by the one before it, and the coil by all.
+    let mut builder = NetworkBuilder::new(Span::default());
+    let mut all = vec![Network::rail()];
+    for _ in 0..50_000 {
+        let last = all[all.len() - 1];
+        all.push(contact(&mut builder, &[last], "a"));
+    }
+    coil(&mut builder, &all, "v");
+    let (text, lost) = written(builder.finish());
+    assert!(text.starts_with("// rung"), "{text}");
+    assert_eq!(lost.len(), 1);
+}
+
+#[test]
+fn a_long_series_of_contacts_and_coils_is_written_in_linear_time() {
+    let mut builder = NetworkBuilder::new(Span::default());
+    let mut last = Network::rail();
+    for _ in 0..50_000 {
+        last = contact(&mut builder, &[last], "a");
+    }
+    coil(&mut builder, &[last], "v");
+    let (text, lost) = written(builder.finish());
+    assert_eq!(text.matches("* a").count(), 49_999);
+    assert_eq!(lost.len(), 0);
 }
 
 mod random {

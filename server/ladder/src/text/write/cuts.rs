@@ -10,11 +10,11 @@
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
-use logic::Name;
 use petgraph::graph::NodeIndex;
 
-use super::part::{Part, always, parallel, series};
-use crate::{Edge, ElementKind, Gate, Network, Port, Wire};
+use super::part::{Part, always, complement, edge_of, element, never, parallel, series, variable};
+use crate::scan::{own_atom, pin_atom};
+use crate::{CounterKind, ElementKind, Gate, Network, Port, Wire};
 
 /// A set of elements, the last solved first.
 pub(super) type Cut = Vec<NodeIndex>;
@@ -85,6 +85,9 @@ impl<'n> Cuts<'n> {
             parts.sort_by_key(|(order, _)| *order);
             let order = parts.first().map_or(0, |(order, _)| *order);
             let part = parallel(parts.into_iter().map(|(_, part)| part).collect());
+            if part.nested > DEEPEST {
+                return Err(TooTangled);
+            }
             if legs.is_empty() && place != *cut {
                 self.spend(part.size())?;
                 self.known
@@ -99,6 +102,9 @@ impl<'n> Cuts<'n> {
                     (next, series(before, part))
                 }
             };
+            if part.nested > DEEPEST {
+                return Err(TooTangled);
+            }
             legs.entry(next).or_default().push((order, part));
         }
         Err(TooTangled)
@@ -120,14 +126,17 @@ impl<'n> Cuts<'n> {
         if let Some(cut) = self.feed(at).cloned() {
             return self.whole(cut, depth);
         }
-        let port = self.main_port(at);
-        self.arriving(at, port.as_ref(), depth)
+        let mut all = always();
+        for port in power_ports(self.network, at) {
+            all = series(all, self.arriving(at, port.as_ref(), depth)?);
+        }
+        Ok(all)
     }
 
     fn whole(&mut self, mut cut: Cut, depth: usize) -> Result<Part, TooTangled> {
         let mut part = always();
         if cut.is_empty() {
-            return Ok(Part::Or(Vec::new()));
+            return Ok(never());
         }
         while cut != Self::rail() {
             let (before, condition) = self.before(&cut, depth + 1)?;
@@ -146,22 +155,20 @@ impl<'n> Cuts<'n> {
     ) -> Result<(Cut, Part), TooTangled> {
         let own = match &self.network.element(at).kind {
             ElementKind::Contact(_) | ElementKind::Comparison(_) | ElementKind::Open => {
-                let part = series(Part::Element(at), part);
+                let part = series(element(at), part);
                 return match self.feed(at) {
-                    Some(cut) if cut.is_empty() => Ok((Self::rail(), Part::Or(Vec::new()))),
+                    Some(cut) if cut.is_empty() => Ok((Self::rail(), never())),
                     Some(cut) => Ok((cut.clone(), part)),
                     None => Ok((Self::rail(), series(self.input(at, depth + 1)?, part))),
                 };
             }
-            ElementKind::Invert => Part::Not(Box::new(self.input(at, depth + 1)?)),
+            ElementKind::Invert => complement(self.input(at, depth + 1)?),
             ElementKind::OneShot(shot) => {
                 let edge = shot.edge;
                 edge_of(edge, self.input(at, depth + 1)?)
             }
             ElementKind::Gate(gate) => self.gate(*gate, at, depth + 1)?,
-            ElementKind::Block(block) if block.shapes_power => {
-                Part::Variable(output_of(&self.network.element(at).kind, "ENO"))
-            }
+            ElementKind::Block(block) if block.shapes_power => variable(own_atom(self.network, at)),
             _ => self.input(at, depth + 1)?,
         };
         Ok((Self::rail(), series(own, part)))
@@ -186,11 +193,11 @@ impl<'n> Cuts<'n> {
                 .fold(always(), |all, input| series(input, all)),
             Gate::Or => parallel(inputs),
             Gate::Xor => {
-                let mut odd = Part::Or(Vec::new());
+                let mut odd = never();
                 for input in inputs {
                     self.spend(2 * (odd.size() + input.size()))?;
-                    let only_odd = series(odd.clone(), Part::Not(Box::new(input.clone())));
-                    let only_input = series(Part::Not(Box::new(odd)), input);
+                    let only_odd = series(odd.clone(), complement(input.clone()));
+                    let only_input = series(complement(odd), input);
                     odd = parallel(vec![only_odd, only_input]);
                 }
                 odd
@@ -221,7 +228,7 @@ impl<'n> Cuts<'n> {
         for (from, wire) in wires {
             let mut part = match &wire.from {
                 Port::Pin(pin) if is_box(&self.network.element(from).kind) => {
-                    Part::Variable(output_of(&self.network.element(from).kind, pin))
+                    variable(pin_atom(self.network, from, pin))
                 }
                 _ => {
                     let cut = self.shapers(std::iter::once(from));
@@ -232,16 +239,19 @@ impl<'n> Cuts<'n> {
                 part = edge_of(edge, part);
             }
             legs.push(match wire.negated {
-                true => Part::Not(Box::new(part)),
+                true => complement(part),
                 false => part,
             });
         }
         Ok(parallel(legs))
     }
 
-    /// What feeds an element by the port that counts.
+    /// What feeds an element, if one port counts.
     fn feed_of(&self, at: NodeIndex) -> Option<Cut> {
-        let port = self.main_port(at);
+        let ports = power_ports(self.network, at);
+        let [port] = ports.as_slice() else {
+            return None;
+        };
         let wires: Vec<_> = self
             .network
             .arriving(at)
@@ -274,29 +284,35 @@ impl<'n> Cuts<'n> {
         all.into_iter().rev().collect()
     }
 
-    /// The port of a box that its power arrives at; for other elements wires
-    /// at any port count.
-    pub(super) fn main_port(&self, at: NodeIndex) -> Option<Port> {
-        if !is_box(&self.network.element(at).kind) {
-            return None;
-        }
-        let wires = self.network.arriving(at);
-        let power = wires.iter().find(|(_, wire)| wire.to == Port::Power);
-        let (_, wire) = power.or(wires.first())?;
-        Some(wire.to.clone())
-    }
-
     fn spend(&mut self, elements: usize) -> Result<(), TooTangled> {
         self.left = self.left.checked_sub(elements).ok_or(TooTangled)?;
         Ok(())
     }
 }
 
-fn edge_of(edge: Edge, part: Part) -> Part {
-    match edge {
-        Edge::Rising => Part::Rise(Box::new(part)),
-        Edge::Falling => Part::Fall(Box::new(part)),
+/// The ports of an element that power must arrive at, `None` meaning any: for
+/// a box its own input, `EN` or the like, and the power flow where both are
+/// wired; for what is no box all wires count alike.
+pub(super) fn power_ports(network: &Network, at: NodeIndex) -> Vec<Option<Port>> {
+    let own = match &network.element(at).kind {
+        ElementKind::Timer(_) => "IN",
+        ElementKind::Counter(counter) if counter.kind == CounterKind::Down => "CD",
+        ElementKind::Counter(_) => "CU",
+        ElementKind::Block(_) => "EN",
+        _ => return vec![None],
+    };
+    let wires = network.arriving(at);
+    let is_wired = |port: &Port| wires.iter().any(|(_, wire)| wire.to == *port);
+    let ports = [Port::Power, Port::Pin(own.into())];
+    let wired: Vec<_> = ports.into_iter().filter(is_wired).map(Some).collect();
+    if wired.is_empty() {
+        return wires
+            .first()
+            .map(|(_, wire)| Some(wire.to.clone()))
+            .into_iter()
+            .collect();
     }
+    wired
 }
 
 fn port_name(port: &Port) -> &str {
@@ -335,22 +351,4 @@ pub(super) fn is_output(kind: &ElementKind) -> bool {
         ElementKind::Label(_) => false,
         kind => passes(kind),
     }
-}
-
-/// The atom of an output of a box.
-fn output_of(kind: &ElementKind, pin: &str) -> Name {
-    let instance = match kind {
-        ElementKind::Timer(timer) if matches!(pin, "Q" | "DN") => return timer.output.clone(),
-        ElementKind::Counter(counter) if matches!(pin, "Q" | "DN") => {
-            return counter.output.clone();
-        }
-        ElementKind::Timer(timer) => &timer.instance.name,
-        ElementKind::Counter(counter) => &counter.instance.name,
-        ElementKind::Block(block) => match &block.instance {
-            Some(instance) => &instance.name,
-            None => &block.name,
-        },
-        _ => return pin.into(),
-    };
-    format!("{instance}.{pin}").into()
 }

@@ -261,16 +261,19 @@ fn leave_out(network: &Network, lost: &mut Vec<Lost>) {
                 lose("a contact that leads nowhere".to_owned());
             }
             ElementKind::Timer(_) | ElementKind::Counter(_) | ElementKind::Block(_)
-                if has_several_inputs(network, at) =>
+                if has_further_inputs(network, at) =>
             {
-                lose("all inputs of the box but the first".to_owned());
+                lose("what is wired to further pins of the box".to_owned());
             }
             _ => {}
         }
     }
 }
 
-fn has_several_inputs(network: &Network, at: NodeIndex) -> bool {
+fn has_further_inputs(network: &Network, at: NodeIndex) -> bool {
+    let ports = cuts::power_ports(network, at);
     let wires = network.arriving(at);
-    wires.iter().any(|(_, wire)| wire.to != wires[0].1.to)
+    wires
+        .iter()
+        .any(|(_, wire)| !ports.contains(&Some(wire.to.clone())))
 }

@@ -10,7 +10,7 @@ use petgraph::graph::NodeIndex;
 
 use super::Lost;
 use super::legs::{Driven, Leg};
-use super::part::Part;
+use super::part::{Kind, Part};
 use crate::Network;
 
 /// Contacts that the text looks at before or after a write, and the network
@@ -72,11 +72,11 @@ fn order(legs: &[Leg]) -> Vec<NodeIndex> {
 }
 
 fn elements(part: &Part, all: &mut Vec<NodeIndex>) {
-    match part {
-        Part::Element(at) => all.push(*at),
-        Part::Variable(_) => {}
-        Part::Not(inner) | Part::Rise(inner) | Part::Fall(inner) => elements(inner, all),
-        Part::And(parts) => parts.iter().for_each(|part| elements(part, all)),
-        Part::Or(parts) => parts.iter().for_each(|part| elements(part, all)),
+    match &part.kind {
+        Kind::Element(at) => all.push(*at),
+        Kind::Variable(_) => {}
+        Kind::Not(inner) | Kind::Edge(_, inner) => elements(inner, all),
+        Kind::And(parts) => parts.iter().for_each(|part| elements(part, all)),
+        Kind::Or(parts) => parts.iter().for_each(|part| elements(part, all)),
     }
 }

@@ -109,18 +109,16 @@ fn written_block(block: &Block) -> String {
     format!("{}({})", quoted(&block.name), arguments.join(", "))
 }
 
-/// A pin with what is at it. A named pin with nothing at it is left out.
+/// A pin with what is at it. A named pin with nothing at it is left out. A pin
+/// that is read and written goes without its name, since a name would say that
+/// it is one of the two.
 fn written_pin(pin: &Pin) -> Option<String> {
     let at_pin = pin.operand.as_ref().map(|operand| value(&operand.name));
-    match &pin.name {
-        None => Some(at_pin.unwrap_or_default()),
-        Some(name) => {
-            let sign = match pin.direction {
-                PinDirection::Output => "=>",
-                PinDirection::Input | PinDirection::InOut => ":=",
-            };
-            Some(format!("{} {sign} {}", quoted(name), at_pin?))
-        }
+    match (&pin.name, pin.direction) {
+        (None, _) => Some(at_pin.unwrap_or_default()),
+        (Some(_), PinDirection::InOut) => at_pin,
+        (Some(name), PinDirection::Input) => Some(format!("{} := {}", quoted(name), at_pin?)),
+        (Some(name), PinDirection::Output) => Some(format!("{} => {}", quoted(name), at_pin?)),
     }
 }
 

@@ -6,21 +6,28 @@ use logic::Name;
 use logic::notation::{milliseconds, quoted, quoted_value};
 use petgraph::graph::NodeIndex;
 
-use crate::{Comparison, ContactKind, Element, ElementKind};
+use crate::{Comparison, ContactKind, Edge, Element, ElementKind};
 
-/// An expression over the elements of a network.
+/// An expression over the elements of a network, and how deep it nests.
 #[derive(Clone, Debug)]
-pub(super) enum Part {
+pub(super) struct Part {
+    pub(super) kind: Kind,
+    /// How many levels lie below; counted as it is built, since a network may
+    /// nest deeper than the stack is.
+    pub(super) nested: usize,
+}
+
+/// What an expression is.
+#[derive(Clone, Debug)]
+pub(super) enum Kind {
     /// What an element adds to the power that it gets: a contact, a comparison.
     Element(NodeIndex),
     /// A variable that stands for the output of a box.
     Variable(Name),
     /// `/a`
     Not(Box<Part>),
-    /// `rise(a)`
-    Rise(Box<Part>),
-    /// `fall(a)`
-    Fall(Box<Part>),
+    /// `rise(a)` or `fall(a)`
+    Edge(Edge, Box<Part>),
     /// `a*b`; always on when empty.
     And(VecDeque<Part>),
     /// `a + b`; never on when empty.
@@ -29,32 +36,84 @@ pub(super) enum Part {
 
 /// Always on.
 pub(super) fn always() -> Part {
-    Part::And(VecDeque::new())
+    leaf(Kind::And(VecDeque::new()))
+}
+
+/// Never on.
+pub(super) fn never() -> Part {
+    leaf(Kind::Or(Vec::new()))
+}
+
+/// An element of the network.
+pub(super) fn element(at: NodeIndex) -> Part {
+    leaf(Kind::Element(at))
+}
+
+/// A variable.
+pub(super) fn variable(name: Name) -> Part {
+    leaf(Kind::Variable(name))
+}
+
+fn leaf(kind: Kind) -> Part {
+    Part { kind, nested: 0 }
+}
+
+/// `/part`
+pub(super) fn complement(part: Part) -> Part {
+    Part {
+        nested: part.nested + 1,
+        kind: Kind::Not(Box::new(part)),
+    }
+}
+
+/// `rise(part)` or `fall(part)`
+pub(super) fn edge_of(edge: Edge, part: Part) -> Part {
+    Part {
+        nested: part.nested + 1,
+        kind: Kind::Edge(edge, Box::new(part)),
+    }
 }
 
 /// `first*then`
 pub(super) fn series(first: Part, then: Part) -> Part {
-    match (first, then) {
-        (Part::And(first), Part::And(mut then)) if first.len() < then.len() => {
+    let level = |part: &Part| match part.kind {
+        Kind::And(_) => part.nested,
+        _ => part.nested + 1,
+    };
+    let nested = level(&first).max(level(&then));
+    let parts = match (first.kind, then.kind) {
+        (Kind::And(first), Kind::And(mut then)) if first.len() < then.len() => {
             first
                 .into_iter()
                 .rev()
                 .for_each(|part| then.push_front(part));
-            Part::And(then)
+            then
         }
-        (Part::And(mut first), Part::And(then)) => {
+        (Kind::And(mut first), Kind::And(then)) => {
             first.extend(then);
-            Part::And(first)
+            first
         }
-        (first, Part::And(mut parts)) => {
-            parts.push_front(first);
-            Part::And(parts)
+        (kind, Kind::And(mut then)) => {
+            then.push_front(Part {
+                kind,
+                nested: first.nested,
+            });
+            then
         }
-        (Part::And(mut parts), then) => {
-            parts.push_back(then);
-            Part::And(parts)
+        (Kind::And(mut first), kind) => {
+            first.push_back(Part {
+                kind,
+                nested: then.nested,
+            });
+            first
         }
-        (first, then) => Part::And([first, then].into()),
+        (a, b) => [(a, first.nested), (b, then.nested)]
+            .map(|(kind, nested)| Part { kind, nested })
+            .into(),
+    };
+    Part {
+        kind: Kind::And(parts),
+        nested,
     }
 }
 
@@ -62,33 +121,39 @@ pub(super) fn series(first: Part, then: Part) -> Part {
 pub(super) fn parallel(legs: Vec<Part>) -> Part {
     let mut all = Vec::with_capacity(legs.len());
     for leg in legs {
-        match leg {
-            Part::Or(more) => all.extend(more),
-            leg => all.push(leg),
+        match leg.kind {
+            Kind::Or(more) => all.extend(more),
+            kind => all.push(Part {
+                kind,
+                nested: leg.nested,
+            }),
         }
     }
     if all.len() == 1 {
-        return all.pop().unwrap_or_else(always);
+        return all.pop().unwrap_or_else(never);
     }
-    Part::Or(all)
+    Part {
+        nested: all.iter().map(|leg| leg.nested + 1).max().unwrap_or(0),
+        kind: Kind::Or(all),
+    }
 }
 
 impl Part {
     /// Whether power passes unchanged.
     pub(super) fn is_always(&self) -> bool {
-        match self {
-            Self::And(parts) => parts.iter().all(Self::is_always),
+        match &self.kind {
+            Kind::And(parts) => parts.iter().all(Self::is_always),
             _ => false,
         }
     }
 
     /// Number of elements and variables in it.
     pub(super) fn size(&self) -> usize {
-        match self {
-            Self::Element(_) | Self::Variable(_) => 1,
-            Self::Not(inner) | Self::Rise(inner) | Self::Fall(inner) => inner.size(),
-            Self::And(parts) => parts.iter().map(Self::size).sum::<usize>().max(1),
-            Self::Or(parts) => parts.iter().map(Self::size).sum::<usize>().max(1),
+        match &self.kind {
+            Kind::Element(_) | Kind::Variable(_) => 1,
+            Kind::Not(inner) | Kind::Edge(_, inner) => inner.size(),
+            Kind::And(parts) => parts.iter().map(Self::size).sum::<usize>().max(1),
+            Kind::Or(parts) => parts.iter().map(Self::size).sum::<usize>().max(1),
         }
     }
 }
@@ -102,7 +167,7 @@ enum Around {
     Complement,
 }
 
-/// The part as text; `element` gives what a [`Part::Element`] stands for.
+/// The part as text; `element` gives what a [`Kind::Element`] stands for.
 pub(super) fn text<'n>(part: &Part, element: &impl Fn(NodeIndex) -> &'n Element) -> String {
     let mut text = String::new();
     write(part, Around::Nothing, element, &mut text);
@@ -115,9 +180,9 @@ fn write<'n>(
     element: &impl Fn(NodeIndex) -> &'n Element,
     text: &mut String,
 ) {
-    match part {
-        Part::Variable(name) => text.push_str(&quoted(name)),
-        Part::Element(at) => match &element(*at).kind {
+    match &part.kind {
+        Kind::Variable(name) => text.push_str(&quoted(name)),
+        Kind::Element(at) => match &element(*at).kind {
             ElementKind::Contact(contact) => {
                 let name = quoted(&contact.operand.name);
                 text.push_str(&match contact.kind {
@@ -137,20 +202,19 @@ fn write<'n>(
             ElementKind::Open => text.push('0'),
             _ => text.push('1'),
         },
-        Part::Not(inner) => enclosed(around == Around::Complement, text, |text| {
+        Kind::Not(inner) => enclosed(around == Around::Complement, text, |text| {
             text.push('/');
             write(inner, Around::Complement, element, text);
         }),
-        Part::Rise(inner) | Part::Fall(inner) => {
-            text.push_str(if matches!(part, Part::Rise(_)) {
-                "rise("
-            } else {
-                "fall("
+        Kind::Edge(edge, inner) => {
+            text.push_str(match edge {
+                Edge::Rising => "rise(",
+                Edge::Falling => "fall(",
             });
             write(inner, Around::Nothing, element, text);
             text.push(')');
         }
-        Part::And(parts) => match parts.len() {
+        Kind::And(parts) => match parts.len() {
             0 => text.push('1'),
             1 => parts
                 .iter()
@@ -164,8 +228,8 @@ fn write<'n>(
                 }
             }),
         },
-        Part::Or(parts) if parts.is_empty() => text.push('0'),
-        Part::Or(parts) => enclosed(around > Around::Sum, text, |text| {
+        Kind::Or(parts) if parts.is_empty() => text.push('0'),
+        Kind::Or(parts) => enclosed(around > Around::Sum, text, |text| {
             for (at, part) in parts.iter().enumerate() {
                 if at > 0 {
                     text.push_str(" + ");
