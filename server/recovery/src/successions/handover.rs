@@ -43,7 +43,7 @@ impl Form {
 /// A state whose condition has more nodes than this is compared with no
 /// other: with a condition of that size, which no person can read, every pair
 /// would cost as much as all the rest of the program.
-const LARGEST: usize = 2_000;
+const LARGEST: usize = 500;
 
 /// All handovers between states. The plain form of their conditions is tried
 /// first: in it a chain with transition bits shows which bit ends the one and
