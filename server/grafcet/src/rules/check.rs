@@ -43,7 +43,11 @@ fn syntax(statement: &Statement) -> Option<Diagnostic> {
         let help = "write `//! accept a -> b`, `//! accept a -> b & c`, `//! reject a -> b`, \
                     `//! initial a`, `//! keep t1` or `//! end a`";
         let message = format!("decision not understood: {}", problem.message);
-        return Some(Diagnostic::new(codes::DECISION_SYNTAX, problem.span, message).help(help));
+        let span = match problem.span.is_empty() {
+            true => statement.span(),
+            false => problem.span,
+        };
+        return Some(Diagnostic::new(codes::DECISION_SYNTAX, span, message).help(help));
     }
     let what = match (&statement.kind, statement.label()) {
         (Kind::List(word, _), _) => format!("{} list", word.text()),
@@ -234,17 +238,19 @@ fn instances(statement: &Statement, spec: &Spec, found: &mut Vec<Diagnostic>) {
             continue;
         };
         let of = spell::name(&part.name);
-        let message = match &part.kind {
-            PartKind::Reusable { parameters } if parameters.len() == instance.arguments.len() => {
-                continue;
-            }
-            PartKind::Reusable { parameters } => format!(
-                "{of} takes {} names, and {} are given",
-                parameters.len(),
-                instance.arguments.len()
-            ),
-            _ => format!("{of} is not a reusable grafcet"),
+        let PartKind::Reusable { parameters } = &part.kind else {
+            let message = format!("{of} is not declared as a reusable grafcet");
+            found.push(
+                Diagnostic::new(codes::SPEC_UNDECLARED, entry.span, message)
+                    .help("begin the part with `Reusable` and its name"),
+            );
+            continue;
         };
+        let (wanted, given) = (parameters.len(), instance.arguments.len());
+        if wanted == given {
+            continue;
+        }
+        let message = format!("{of} takes {wanted} names, and {given} are given");
         let help = "an instance is written `Instance d1 of Drill(a, b)`, with one variable for \
                     each parameter of `Reusable Drill(x, y)`";
         found.push(Diagnostic::new(codes::SPEC_SYNTAX, entry.span, message).help(help));

@@ -59,4 +59,5 @@ pub use format::{Formatted, format};
 pub use places::{Mention, Places, Role, RulePlace};
 pub use read::{Reading, read};
 pub use rewrite::rewrite;
+pub use spell::action_text;
 pub use write::write;

@@ -15,10 +15,9 @@ use crate::rules::write::{fits, is_bare};
 /// Where new lines that declare with `word` go.
 pub(super) fn for_declaration(document: &Document<'_>, part: Option<&Name>, word: Word) -> usize {
     let rank_of = |statement: &Statement| match &statement.kind {
-        Kind::List(other, _) if other.is_global() || statement.part.as_ref() == part => {
-            Some(Some(*other))
-        }
-        Kind::Grafcet(_) if part.is_none() => Some(None),
+        Kind::List(other, _) if word.is_global() && other.is_global() => Some(Some(*other)),
+        Kind::List(other, _) if statement.part.as_ref() == part => Some(Some(*other)),
+        Kind::Grafcet(_) if part.is_none() && statement.part.is_none() => Some(None),
         Kind::Part(name, _) if Some(name) == part => Some(None),
         _ => None,
     };
@@ -134,7 +133,7 @@ pub(super) fn for_part(document: &Document<'_>) -> usize {
     let blocks = blocks(document);
     let last = blocks
         .iter()
-        .rfind(|block| !block.is_global() || block.has_chart);
+        .rfind(|block| !block.is_global() || block.declares);
     last.map_or(document.text.len(), |block| block.end)
 }
 
@@ -149,6 +148,14 @@ pub(super) fn for_global_section(document: &Document<'_>, section: Section) -> u
         _ => blocks.last(),
     };
     before.map_or(document.text.len(), |block| block.end)
+}
+
+/// Where the lines before the first head end.
+pub(super) fn end_of_first_block(document: &Document<'_>) -> usize {
+    let blocks = blocks(document);
+    blocks
+        .first()
+        .map_or(document.text.len(), |block| block.end)
 }
 
 /// Where new decisions go, and whether any are there.
@@ -166,8 +173,8 @@ struct Block<'d> {
     section: Option<Section>,
     /// Where the line after its last statement starts.
     end: usize,
-    /// Whether a declaration in it belongs to a chart.
-    has_chart: bool,
+    /// Whether declarations stand in it, after which more may come.
+    declares: bool,
 }
 
 impl Block<'_> {
@@ -183,7 +190,7 @@ fn blocks<'d>(document: &'d Document<'_>) -> Vec<Block<'d>> {
         part: None,
         section: None,
         end: begins.map_or(document.text.len(), Statement::start),
-        has_chart: false,
+        declares: false,
     }];
     for statement in &document.statements {
         if !is_significant(statement) {
@@ -194,15 +201,12 @@ fn blocks<'d>(document: &'d Document<'_>) -> Vec<Block<'d>> {
                 part: statement.part.as_ref(),
                 section: statement.section,
                 end: statement.next(),
-                has_chart: false,
+                declares: false,
             });
         }
         if let Some(block) = blocks.last_mut() {
             block.end = statement.next();
-            block.has_chart |= match &statement.kind {
-                Kind::List(word, _) => !word.is_global(),
-                _ => false,
-            };
+            block.declares |= matches!(statement.kind, Kind::List(..) | Kind::Grafcet(_));
         }
     }
     blocks
