@@ -145,7 +145,7 @@ pub(crate) fn list_lines(word: Word, items: &[Item]) -> Vec<String> {
 }
 
 /// Whether another name fits on a line.
-pub(crate) fn fits(line: &str, name: &str) -> bool {
+fn fits(line: &str, name: &str) -> bool {
     line.chars().count() + 2 + name.chars().count() <= WIDTH
 }
 

@@ -17,7 +17,7 @@ use logic::Name;
 use self::edits::Edits;
 use self::lines::{follows_unfinished, remove_statement};
 use self::rules::{Counts, How, Placed};
-pub(crate) use self::spots::declaration;
+pub(crate) use self::spots::{Room, room};
 use super::parse;
 use super::syntax::{Document, Kind};
 use super::words::Section;
@@ -151,11 +151,16 @@ fn move_to_first_block(document: &Document<'_>, at: usize, edits: &mut Edits<'_>
         return;
     };
     let mut lines = vec![String::new()];
-    for line in &statement.lines {
+    // Comment lines inside it stay where they are.
+    let moved = statement
+        .lines
+        .iter()
+        .filter(|line| !line.tokens.is_empty());
+    for line in moved {
         let text = document.text.get(line.start..line.end);
         lines.push(text.unwrap_or_default().to_owned());
     }
-    edits.remove(statement.start(), statement.next());
+    remove_statement(statement, follows_unfinished(document, at), edits);
     edits.insert_lines(spots::end_of_first_block(document), &lines);
 }
 
