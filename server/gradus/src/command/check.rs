@@ -4,12 +4,15 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use clap::ValueEnum;
-use source::{Severity, codes};
+use ladder::Reading;
+use logic::{Budget, Cancel};
+use source::{Diagnostic, Severity, codes};
 
 use crate::colour::Paint;
 use crate::file::Unreadable;
 use crate::input::{self, Candidate, Inputs, Origin, numbered};
 use crate::io::Io;
+use crate::language;
 use crate::progress::Progress;
 use crate::report::{self, Findings};
 use crate::status::Status;
@@ -115,7 +118,7 @@ fn check(inputs: Inputs, io: &mut Io) -> Option<Checked> {
             progress.at(part, &report::printable(&input::name(&candidate.path)));
         }
         match io.read(&candidate.path) {
-            Ok(text) => examine(candidate, text, &mut checked),
+            Ok(text) => examine(candidate, text, io.cancel(), &mut checked),
             Err(reason) => checked.unreadable.push((candidate.path, reason)),
         }
         if io.cancel().is_cancelled() {
@@ -126,8 +129,11 @@ fn check(inputs: Inputs, io: &mut Io) -> Option<Checked> {
 }
 
 /// Adds what there is to say about one file.
-fn examine(candidate: Candidate, text: Vec<u8>, checked: &mut Checked) {
-    let diagnostics = ladder::read(&text).diagnostics;
+fn examine(candidate: Candidate, text: Vec<u8>, cancel: &Cancel, checked: &mut Checked) {
+    let diagnostics = match language::of(&text) {
+        language::File::Ladder(bytes) => about_ladder(bytes, cancel),
+        language::File::Spec(text) => grafcet::read(text).diagnostics,
+    };
     let is_of_no_interest = input::may_be_anything(&candidate.path)
         && diagnostics
             .iter()
@@ -141,6 +147,23 @@ fn examine(candidate: Candidate, text: Vec<u8>, checked: &mut Checked) {
         let findings = Findings::new(candidate.path, text, diagnostics);
         checked.findings.push(findings);
     }
+}
+
+/// What the text of a ladder reveals, and what its conditions do.
+fn about_ladder(bytes: &[u8], cancel: &Cancel) -> Vec<Diagnostic> {
+    let budget = Budget {
+        cancel: cancel.clone(),
+        ..Budget::default()
+    };
+    let Reading {
+        program,
+        mut diagnostics,
+    } = ladder::read(bytes);
+    let conditions = recovery::conditions::conditions(&program, &budget);
+    let found = recovery::findings::findings(&program, &conditions, &budget);
+    diagnostics.extend(found);
+    diagnostics.sort_by_key(|diagnostic| (diagnostic.span, diagnostic.code));
+    diagnostics
 }
 
 fn status(checked: &Checked) -> Status {
