@@ -16,6 +16,9 @@ pub enum File<'f> {
     Spec(&'f str),
 }
 
+/// What follows a rail in a drawn ladder, and never `|-` in a rule.
+const DRAWN: [char; 7] = ['-', '+', '|', '[', '(', '<', '>'];
+
 const SECTIONS: [&str; 4] = ["Transitions:", "Steps:", "Environment:", "Never:"];
 
 /// What the file that holds `bytes` is.
@@ -58,7 +61,7 @@ fn is_rule(line: &str) -> bool {
     let Some((_, right)) = rule.split_once("|-") else {
         return false;
     };
-    !label.contains(char::is_whitespace) && !right.starts_with(['-', '[', '('])
+    !label.contains(char::is_whitespace) && !right.starts_with(DRAWN)
 }
 
 /// Whether the line is a declaration that only specs have, rather than a
@@ -86,6 +89,7 @@ mod tests {
         assert!(!is_spec("input m\nrung \"t1: a |- b\": m -> v\n"));
         assert!(!is_spec("input m\noutput v\n"));
         assert!(!is_spec("Rung1: |---[ a ]---( b )---|\n"));
+        assert!(!is_spec("Drain: |-| |--( b )---|\n"));
         assert!(!is_spec("<project>t1: a |- b</project>"));
         assert!(!is_spec("XIC(a)OTE(b);"));
     }
