@@ -10,6 +10,7 @@ mod args;
 mod colour;
 mod command;
 mod condition;
+mod diff;
 mod file;
 mod input;
 mod interrupt;

@@ -7,6 +7,7 @@
 mod check;
 mod completions;
 mod conditions;
+mod convert;
 mod explain;
 mod fmt;
 mod manual;
@@ -21,6 +22,7 @@ pub enum Command {
     Check(check::Args),
     Conditions(conditions::Args),
     Suggest(suggest::Args),
+    Convert(convert::Args),
     Fmt(fmt::Args),
     Explain(explain::Args),
     Completions(completions::Args),
@@ -33,6 +35,7 @@ pub fn run(command: &Command, io: &mut Io) -> std::io::Result<Status> {
         Command::Check(args) => check::run(args, io),
         Command::Conditions(args) => conditions::run(args, io),
         Command::Suggest(args) => suggest::run(args, io),
+        Command::Convert(args) => convert::run(args, io),
         Command::Fmt(args) => fmt::run(args, io),
         Command::Explain(args) => explain::run(args, io),
         Command::Completions(args) => completions::run(args, io),

@@ -37,12 +37,12 @@ Methods:
 JSON:
   {\"states\": [], \"suggestions\": [{\"from\", \"to\", \"evidence\", \"kind\", \"condition\",
     \"witness\": []}], \"sequence\", \"reason\",
-    \"groups\": [{\"states\": [], \"sequence\", \"reason\", \"mode_pairs\": [[]]}]}
+    \"groups\": [{\"states\": [], \"sequence\", \"reason\", \"modes\": [[]]}]}
   `states` are the coils and register values that took part. `evidence` is
   written, handover or possible; `kind` is and or or. `condition` is null past
   the budget and for cubes. `witness` is empty: no input sequences are searched
-  for. A group is a set of rungs that depend on each other; a mode pair is two
-  states that only hand over to each other, such as opened and closed.
+  for. A group is a set of rungs that depend on each other; `modes` are sets of
+  states that replace each other in any order, such as opened and closed.
 
 Exit status: 0 also where there is no sequence: that is an answer. 1 if the text
 of the ladder has errors.

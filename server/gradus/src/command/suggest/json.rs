@@ -38,12 +38,12 @@ fn suggestion(succession: &Succession, found: &Found<'_>, budget: &Budget) -> Va
 }
 
 fn group(group: &Group) -> Value {
-    let pairs = group.mode_pairs.iter();
+    let modes = group.modes.iter();
     value!({
         "states": names(&group.states),
         "sequence": group.sequence,
         "reason": group.reason,
-        "mode_pairs": pairs.map(|(a, b)| value!([&**a, &**b])).collect::<Vec<_>>(),
+        "modes": modes.map(|set| names(set)).collect::<Vec<_>>(),
     })
 }
 

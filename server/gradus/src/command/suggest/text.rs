@@ -105,8 +105,8 @@ fn no_sequence(out: &mut String, group: &Group, paint: Paint) {
     let head = paint.bold("No sequence here:");
     let names = listed(&group.states);
     let reason = printable(&group.reason);
-    // A single state and a pair of modes are named by their reasons.
-    if group.states.len() == 1 || !group.mode_pairs.is_empty() {
+    // A single state and sets of modes are named by their reasons.
+    if group.states.len() == 1 || !group.modes.is_empty() {
         out.push_str(&format!("{head} {reason}\n"));
     } else {
         out.push_str(&format!("{head} {names}: {reason}\n"));
