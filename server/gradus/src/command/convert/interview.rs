@@ -13,19 +13,23 @@ use recovery::successions::{Evidence, Kind, Succession};
 use super::conversion::Conversion;
 use super::decide;
 use crate::condition::broken;
+use crate::input::numbered;
 use crate::io::Io;
 use crate::program;
 use crate::report::printable;
 use crate::status::Status;
 
-const HELP: &str = "\
-  a  accept     the one state follows the other
-  t  together   it follows, and starts together with others
-  r  reject     it does not follow
-  l  later      not now; ask again the next time
-  i  initial    a sequence starts in the state that is asked about
-  q  quit       stop here; all answers are saved
-";
+const HELP: &str = concat!(
+    "  a  accept     the state on the right follows the one on the left\n",
+    "  t  together   it follows, and starts together with others\n",
+    "  r  reject     it does not follow\n",
+    "  l  later      not now; ask the next time\n",
+    "  n  next       nothing more about the state on the left this time\n",
+    "  i  initial    a sequence starts in the state on the left\n",
+    "  q  quit       stop here; all answers are saved\n",
+);
+
+const PROMPT: &str = "  [a]ccept [t]ogether [r]eject [l]ater [n]ext [i]nitial [q]uit [?] > ";
 
 /// An answer to a question.
 enum Answer {
@@ -33,6 +37,7 @@ enum Answer {
     Together,
     Reject,
     Later,
+    Next,
     Initial,
     Quit,
     Help,
@@ -46,6 +51,7 @@ impl Answer {
             't' => Self::Together,
             'r' => Self::Reject,
             'l' => Self::Later,
+            'n' => Self::Next,
             'i' => Self::Initial,
             'q' => Self::Quit,
             'h' | '?' => Self::Help,
@@ -91,6 +97,12 @@ pub fn hold(conversion: &mut Conversion<'_>, io: &mut Io) -> std::io::Result<Sta
                 later.insert(pair);
                 continue;
             }
+            Answer::Next => {
+                let open = conversion.open().into_iter();
+                let of_state = open.filter(|it| it.from == pair.0);
+                later.extend(of_state.map(|it| (it.from.clone(), it.to.clone())));
+                continue;
+            }
             Answer::Help => {
                 io.aside(HELP)?;
                 continue;
@@ -101,6 +113,7 @@ pub fn hold(conversion: &mut Conversion<'_>, io: &mut Io) -> std::io::Result<Sta
             io.complain(&failure);
             return Ok(Status::Usage);
         }
+        io.aside("  saved\n")?;
     }
     io.aside("\n")?;
     Ok(Status::Done)
@@ -129,7 +142,10 @@ fn introduction(state: &Name, conversion: &Conversion<'_>) -> String {
     if let Some(condition) = conversion.ends_on(state) {
         text += &format!("\n  ends when {}", broken(&printable(&condition), 12));
     }
-    text + "\n"
+    let open = conversion.open();
+    let here = open.iter().filter(|it| it.from == *state).count();
+    let here = numbered(here, "suggestion");
+    text + &format!("\n  {here}, of {} open\n", open.len())
 }
 
 fn question(succession: &Succession, conversion: &Conversion<'_>) -> String {
@@ -157,7 +173,7 @@ fn question(succession: &Succession, conversion: &Conversion<'_>) -> String {
 /// Asks until there is an answer. The end of input is one.
 fn ask(io: &mut Io) -> std::io::Result<Answer> {
     loop {
-        io.aside("  [a]ccept [t]ogether [r]eject [l]ater [i]nitial [q]uit [?] > ")?;
+        io.aside(PROMPT)?;
         match io.line()? {
             None => return Ok(Answer::Quit),
             Some(line) => match Answer::parse(&line) {

@@ -30,6 +30,7 @@ pub fn json(
         "actions": outcome.actions,
         "states": outcome.states.iter().map(of_state).collect::<Vec<_>>(),
         "two_step": names(&outcome.two_step),
+        "without_step": names(&outcome.without_step),
         "sequence": sequence,
         "reason": reason,
         "diagnostics": diagnostics["diagnostics"].take(),

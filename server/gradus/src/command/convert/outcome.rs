@@ -3,7 +3,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use grafcet::Verdict;
+use grafcet::{Grafcet, Verdict};
 use logic::Name;
 use recovery::groups;
 use recovery::successions::{Evidence, Succession};
@@ -18,6 +18,9 @@ pub struct Outcome<'a> {
     pub states: Vec<OfState<'a>>,
     /// States that no accepted succession ties to a sequence.
     pub two_step: Vec<Name>,
+    /// States that no step of the spec stands for: no accepted succession leads
+    /// to them from where their sequence starts.
+    pub without_step: Vec<Name>,
     /// Steps of the spec.
     pub steps: usize,
     /// Transitions of the spec.
@@ -61,6 +64,7 @@ impl<'a> Outcome<'a> {
         Self {
             states: states(conversion),
             two_step: two_step(conversion),
+            without_step: without_step(conversion, &grafcet),
             steps: grafcet.steps().count(),
             transitions: grafcet.transitions().count(),
             actions: grafcet.actions().count(),
@@ -146,5 +150,14 @@ fn two_step(conversion: &Conversion<'_>) -> Vec<Name> {
     states
         .map(|state| state.name.clone())
         .filter(|name| !tied.contains(name))
+        .collect()
+}
+
+fn without_step(conversion: &Conversion<'_>, grafcet: &Grafcet) -> Vec<Name> {
+    let drawn: BTreeSet<&Name> = grafcet.steps().filter_map(|it| it.state.as_ref()).collect();
+    let states = conversion.analysis.states.states.iter();
+    states
+        .map(|state| state.name.clone())
+        .filter(|name| !drawn.contains(name))
         .collect()
 }

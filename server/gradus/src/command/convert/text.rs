@@ -28,6 +28,11 @@ pub fn summary(outcome: &Outcome<'_>, name: &str, state: State, paint: Paint) ->
         let names = listed(outcome.two_step.iter());
         out += &format!("{count} left as a grafcet of two steps each: {names}\n");
     }
+    if !outcome.without_step.is_empty() {
+        let count = numbered(outcome.without_step.len(), "state");
+        let names = listed(outcome.without_step.iter());
+        out += &format!("{count} without a step, since nothing accepted leads there: {names}\n");
+    }
     let open: usize = outcome.states.iter().map(|state| state.open.len()).sum();
     if open > 0 {
         let open = numbered(open, "suggestion");
