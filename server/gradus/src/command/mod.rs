@@ -10,6 +10,7 @@ mod conditions;
 mod convert;
 mod explain;
 mod fmt;
+mod generate;
 mod manual;
 mod suggest;
 
@@ -23,6 +24,7 @@ pub enum Command {
     Conditions(conditions::Args),
     Suggest(suggest::Args),
     Convert(convert::Args),
+    Generate(generate::Args),
     Fmt(fmt::Args),
     Explain(explain::Args),
     Completions(completions::Args),
@@ -36,6 +38,7 @@ pub fn run(command: &Command, io: &mut Io) -> std::io::Result<Status> {
         Command::Conditions(args) => conditions::run(args, io),
         Command::Suggest(args) => suggest::run(args, io),
         Command::Convert(args) => convert::run(args, io),
+        Command::Generate(args) => generate::run(args, io),
         Command::Fmt(args) => fmt::run(args, io),
         Command::Explain(args) => explain::run(args, io),
         Command::Completions(args) => completions::run(args, io),
