@@ -262,10 +262,7 @@ impl Collector<'_> {
         let ElementKind::Timer(timer) = kind else {
             return;
         };
-        let input = match powers.at_pin(element, "IN") {
-            Some(input) => input.cloned(),
-            None => powers.at(element).cloned(),
-        };
+        let input = powers.at(element).cloned();
         let input = conjoined(&[&input, &circumstances.zone], walk);
         let output = walk.atoms.add_variable(&timer.output);
         let law = TimerLaw {
