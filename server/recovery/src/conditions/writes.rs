@@ -176,10 +176,10 @@ impl Collector<'_> {
                 if element.index() >= rung.network.len() {
                     break;
                 }
-                if steers(&rung.network.element(element).kind) {
+                let kind = &rung.network.element(element).kind;
+                if steers(kind) {
                     let power = powers.at(element).cloned();
-                    let there =
-                        conjoined(&[&power, &circumstances.solved, &circumstances.zone], walk);
+                    let there = steered(kind, &power, &circumstances, walk);
                     steering.insert((at, element), there);
                 }
             }
@@ -289,6 +289,23 @@ fn steers(kind: &ElementKind) -> bool {
             | ElementKind::Return { .. }
             | ElementKind::Zone
     )
+}
+
+/// The condition under which an element that gets `power` calls, jumps or
+/// leaves, or the zone that it begins is switched on. A jump that is not solved
+/// does not jump; a zone whose begin is not solved is on.
+fn steered(
+    kind: &ElementKind,
+    power: &Result<Function, Stop>,
+    circumstances: &Circumstances,
+    walk: &Walk<'_>,
+) -> Result<Function, Stop> {
+    let solved = &circumstances.solved;
+    if *kind != ElementKind::Zone {
+        return conjoined(&[power, solved, &circumstances.zone], walk);
+    }
+    let power = conjoined(&[power, &circumstances.zone], walk)?;
+    power.or(&solved.clone()?.not(), walk.budget)
 }
 
 fn conjoined(parts: &[&Result<Function, Stop>], walk: &Walk<'_>) -> Result<Function, Stop> {
