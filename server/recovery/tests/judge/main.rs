@@ -7,5 +7,7 @@
 
 mod guards;
 mod networks;
+mod next_values;
+mod programs;
 mod rungs;
 mod valuations;
