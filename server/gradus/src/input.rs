@@ -97,6 +97,14 @@ fn search(root: &Path, endings: &[&str], inputs: &mut Inputs) {
     inputs.candidates.extend(found.into_iter().map(below));
 }
 
+/// The place among [`ENDINGS`] of the ending that `path` has.
+pub fn ending(path: &Path) -> Option<usize> {
+    let ending = path.extension()?;
+    ENDINGS
+        .iter()
+        .position(|known| ending.eq_ignore_ascii_case(known))
+}
+
 fn ends_with_one_of(path: &Path, endings: &[&str]) -> bool {
     path.extension().is_some_and(|ending| {
         endings

@@ -78,6 +78,18 @@ impl Io {
         }
     }
 
+    /// Whether somebody sits at a terminal who can be asked, and can answer.
+    pub fn can_ask(&self) -> bool {
+        self.input.is_terminal() && std::io::stderr().is_terminal()
+    }
+
+    /// The next line of standard input without its end; `None` after the last.
+    pub fn line(&mut self) -> std::io::Result<Option<String>> {
+        let mut line = String::new();
+        let read = self.input.read_line(&mut line)?;
+        Ok((read > 0).then(|| line.trim_end_matches(['\r', '\n']).to_owned()))
+    }
+
     /// The flag that Ctrl-C raises. Long work asks it, and stops.
     pub fn cancel(&self) -> &Cancel {
         &self.cancel

@@ -9,11 +9,14 @@
 mod args;
 mod colour;
 mod command;
+mod condition;
+mod diff;
 mod file;
 mod input;
 mod interrupt;
 mod io;
 mod language;
+mod program;
 mod progress;
 mod report;
 mod status;

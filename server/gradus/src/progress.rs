@@ -29,8 +29,21 @@ impl Progress {
     /// done to them: "Checking".
     pub fn begin(activity: &'static str, total: usize) -> Self {
         let bar = ProgressBar::with_draw_target(Some(total as u64), ProgressDrawTarget::hidden())
-            .with_style(style())
+            .with_style(style("{prefix} {bar:24} {pos}/{len} {wide_msg}"))
             .with_prefix(activity);
+        Self::show(bar)
+    }
+
+    /// Begins work on one thing, of which nobody knows how long it takes.
+    pub fn of_one(activity: &'static str, name: &str) -> Self {
+        let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::hidden())
+            .with_style(style("{spinner} {prefix} {wide_msg}"))
+            .with_prefix(activity)
+            .with_message(name.to_owned());
+        Self::show(bar)
+    }
+
+    fn show(bar: ProgressBar) -> Self {
         if !std::io::stderr().is_terminal() {
             return Self {
                 bar,
@@ -74,8 +87,6 @@ fn show_later(bar: &ProgressBar, ended: &Receiver<()>) {
     }
 }
 
-/// `Checking 12/40 tanks.l5x`, after a bar.
-fn style() -> ProgressStyle {
-    ProgressStyle::with_template("{prefix} {bar:24} {pos}/{len} {wide_msg}")
-        .unwrap_or_else(|_| ProgressStyle::default_bar())
+fn style(template: &str) -> ProgressStyle {
+    ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar())
 }

@@ -1,11 +1,13 @@
 //! `gradus check`: what is wrong or odd in ladders and specs.
 
+use std::collections::BTreeMap;
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
 use ladder::Reading;
-use logic::{Budget, Cancel};
+use logic::Budget;
+use recovery::Analysis;
 use source::{Diagnostic, Severity, codes};
 
 use crate::colour::Paint;
@@ -13,13 +15,22 @@ use crate::file::Unreadable;
 use crate::input::{self, Candidate, Inputs, Origin, numbered};
 use crate::io::Io;
 use crate::language;
+use crate::program;
 use crate::progress::Progress;
 use crate::report::{self, Findings};
 use crate::status::Status;
 
+mod against;
+
+use against::{about_spec, ladder_beside};
+
 const DETAILS: &str = "\
 A folder stands for the files below it that end in .ladder, .l5x, .l5k, .xml,
 .txt or .grafcet; those of the endings .xml and .txt that hold no ladder are passed over.
+
+A spec is checked against the ladder beside it, a file of the same name with one
+of the endings above, or against the one that --against names: rules that depart
+from what the ladder gives, states and decisions that it does not know.
 
 Exit status: 1 if there is a finding of severity error, 2 if a file cannot be read;
 the other files are checked all the same.
@@ -31,13 +42,14 @@ JSON:
     \"fix\": {\"title\", \"edits\": [{\"span\", \"text\"}]}}]}
   A span counts bytes of the file from 0; line and column count from 1, a column
   being a character. `severity` is error, warning, information or hint. `help`
-  and `fix` are null where there is none.
+  and `fix` are null where there is none. JSON and SARIF list hints too.
 
 SARIF is version 2.1.0, with a rule for every code.
 
 Examples:
   gradus check line3.L5X                       one program
   gradus check --severity warning plant/       a whole plant, without remarks and hints
+  gradus check --against line3.L5X new.grafcet a spec that lies elsewhere
   gradus check --format sarif . > gradus.sarif for a code-review tool
   gradus check - < pasted.txt                  what somebody pasted";
 
@@ -49,9 +61,19 @@ pub struct Args {
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
 
-    /// Leave out findings that matter less than this.
-    #[arg(long, value_name = "LEAST", default_value = "hint")]
-    severity: Least,
+    /// Leave out findings that matter less than this. Without it, text leaves
+    /// out hints, which are many in real programs, and only counts them.
+    #[arg(long, value_name = "LEAST")]
+    severity: Option<Least>,
+
+    /// The same as `--severity hint`: list everything.
+    #[arg(long, conflicts_with = "severity")]
+    hints: bool,
+
+    /// The ladder that specs are checked against, instead of the one beside
+    /// them.
+    #[arg(long, value_name = "LADDER")]
+    against: Option<PathBuf>,
 
     /// The form of the answer.
     #[arg(long, default_value = "text")]
@@ -81,6 +103,21 @@ enum Least {
     Hint,
 }
 
+impl Args {
+    fn form(&self) -> Form {
+        if self.json { Form::Json } else { self.format }
+    }
+
+    /// The least severity that is listed.
+    fn least(&self) -> Severity {
+        match (self.severity, self.form()) {
+            (Some(least), _) => least.into(),
+            (None, Form::Text) if !self.hints => Severity::Information,
+            (None, _) => Severity::Hint,
+        }
+    }
+}
+
 impl From<Least> for Severity {
     fn from(least: Least) -> Self {
         match least {
@@ -95,8 +132,11 @@ impl From<Least> for Severity {
 /// What came of all files.
 #[derive(Default)]
 struct Checked {
-    /// Files with findings. Of the others only the number is kept.
+    /// Files with findings that are listed. Of the others only the number is
+    /// kept.
     findings: Vec<Findings>,
+    /// All findings by their severity, listed or not.
+    counts: BTreeMap<Severity, usize>,
     files: usize,
     passed_over: usize,
     unreadable: Vec<(PathBuf, Unreadable)>,
@@ -104,12 +144,22 @@ struct Checked {
 
 /// Checks every file, then answers.
 pub fn run(args: &Args, io: &mut Io) -> std::io::Result<Status> {
+    let ladder = match &args.against {
+        None => None,
+        Some(path) => match program::read(path, io)? {
+            Some(ladder) => Some(ladder),
+            None => return Ok(Status::Usage),
+        },
+    };
+    let budget = program::budget(io);
+    let analysis = ladder
+        .as_ref()
+        .map(|ladder| recovery::analyse(&ladder.program, &budget));
     let inputs = input::expand(&args.files, input::ENDINGS);
-    let Some(checked) = check(inputs, args.severity.into(), io) else {
+    let Some(checked) = check(inputs, args.least(), analysis.as_ref(), &budget, io) else {
         return Ok(Status::Interrupted);
     };
-    let form = if args.json { Form::Json } else { args.format };
-    match form {
+    match args.form() {
         Form::Text => {
             let paint = io.answer_paint();
             for findings in &checked.findings {
@@ -129,7 +179,13 @@ pub fn run(args: &Args, io: &mut Io) -> std::io::Result<Status> {
 }
 
 /// Checks every file; `None` if somebody pressed Ctrl-C.
-fn check(inputs: Inputs, least: Severity, io: &mut Io) -> Option<Checked> {
+fn check(
+    inputs: Inputs,
+    least: Severity,
+    against: Option<&Analysis<'_>>,
+    budget: &Budget,
+    io: &mut Io,
+) -> Option<Checked> {
     let waits_for_input = inputs.candidates.iter().any(Candidate::is_standard_input);
     // A line that moves would get in the way of somebody who types a program.
     let progress = (!waits_for_input).then(|| Progress::begin("Checking", inputs.candidates.len()));
@@ -143,7 +199,7 @@ fn check(inputs: Inputs, least: Severity, io: &mut Io) -> Option<Checked> {
         }
         match io.read(&candidate.path) {
             Ok(text) => {
-                let diagnostics = examine(&text, io.cancel());
+                let diagnostics = examine(&candidate.path, &text, against, budget);
                 if is_of_no_interest(&candidate, &diagnostics) {
                     checked.passed_over += 1;
                 } else {
@@ -161,7 +217,7 @@ fn check(inputs: Inputs, least: Severity, io: &mut Io) -> Option<Checked> {
 }
 
 impl Checked {
-    /// Keeps a file if there is something to say about it.
+    /// Counts what was found about a file, and keeps what is listed.
     fn keep(
         &mut self,
         file: Candidate,
@@ -169,6 +225,9 @@ impl Checked {
         mut found: Vec<Diagnostic>,
         least: Severity,
     ) {
+        for diagnostic in &found {
+            *self.counts.entry(diagnostic.severity).or_default() += 1;
+        }
         found.retain(|diagnostic| diagnostic.severity <= least);
         if !found.is_empty() {
             self.findings.push(Findings::new(file.path, text, found));
@@ -186,28 +245,38 @@ fn is_of_no_interest(candidate: &Candidate, found: &[Diagnostic]) -> bool {
         && found.iter().any(is_other)
 }
 
-/// What there is to say about a file that holds `text`.
-fn examine(text: &[u8], cancel: &Cancel) -> Vec<Diagnostic> {
-    match language::of(text) {
-        language::File::Ladder(bytes) => about_ladder(bytes, cancel),
-        language::File::Spec(text) => grafcet::read(text).diagnostics,
+/// What there is to say about the file at `path` that holds `text`; if it is a
+/// spec, in the light of the ladder `against`, or else of the one beside it.
+fn examine(
+    path: &Path,
+    text: &[u8],
+    against: Option<&Analysis<'_>>,
+    budget: &Budget,
+) -> Vec<Diagnostic> {
+    match (language::of(text), against) {
+        (language::File::Ladder(bytes), _) => about_ladder(bytes, budget),
+        (language::File::Spec(text), Some(analysis)) => about_spec(text, Some(analysis), budget),
+        (language::File::Spec(text), None) => {
+            let beside = ladder_beside(path);
+            let analysis = beside
+                .as_ref()
+                .map(|program| recovery::analyse(program, budget));
+            about_spec(text, analysis.as_ref(), budget)
+        }
     }
 }
 
 /// What the text of a ladder reveals, and what its conditions do.
-fn about_ladder(bytes: &[u8], cancel: &Cancel) -> Vec<Diagnostic> {
-    let budget = Budget {
-        cancel: cancel.clone(),
-        ..Budget::default()
-    };
+fn about_ladder(bytes: &[u8], budget: &Budget) -> Vec<Diagnostic> {
     let Reading {
         program,
         mut diagnostics,
     } = ladder::read(bytes);
-    let conditions = recovery::conditions::conditions(&program, &budget);
-    let found = recovery::findings::findings(&program, &conditions, &budget);
+    let conditions = recovery::conditions::conditions(&program, budget);
+    let found = recovery::findings::findings(&program, &conditions, budget);
     diagnostics.extend(found);
     diagnostics.sort_by_key(|diagnostic| (diagnostic.span, diagnostic.code));
+    diagnostics.dedup();
     diagnostics
 }
 
@@ -244,6 +313,10 @@ fn aside(checked: &Checked, paint: Paint) -> String {
         found.join(", ")
     };
     text += &format!("{} checked: {found}", numbered(checked.files, "file"));
+    match unlisted(checked) {
+        0 => {}
+        number => text += &format!("; {number} not listed, --hints lists all"),
+    }
     if checked.passed_over > 0 {
         let passed_over = numbered(checked.passed_over, "other file");
         text += &format!("; {passed_over} passed over");
@@ -255,6 +328,11 @@ fn aside(checked: &Checked, paint: Paint) -> String {
 }
 
 fn count(checked: &Checked, severity: Severity) -> usize {
-    let counts = checked.findings.iter().map(|found| found.count(severity));
-    counts.sum()
+    checked.counts.get(&severity).copied().unwrap_or_default()
+}
+
+/// Findings that are counted and not listed.
+fn unlisted(checked: &Checked) -> usize {
+    let listed = checked.findings.iter().map(|found| found.diagnostics.len());
+    checked.counts.values().sum::<usize>() - listed.sum::<usize>()
 }

@@ -10,14 +10,13 @@ use ladder::Format;
 use serde_json::{Value, json};
 use source::{Diagnostic, codes};
 
+use crate::diff;
 use crate::file::{self, Unreadable};
 use crate::input::{self, Candidate, Origin, numbered};
 use crate::io::Io;
 use crate::language;
 use crate::report;
 use crate::status::Status;
-
-mod diff;
 
 const DETAILS: &str = "\
 A folder stands for the .ladder and .grafcet files below it. A file that would

@@ -6,9 +6,13 @@
 
 mod check;
 mod completions;
+mod conditions;
+mod convert;
 mod explain;
 mod fmt;
+mod generate;
 mod manual;
+mod suggest;
 
 use crate::io::Io;
 use crate::status::Status;
@@ -17,6 +21,10 @@ use crate::status::Status;
 #[derive(Debug, clap::Subcommand)]
 pub enum Command {
     Check(check::Args),
+    Conditions(conditions::Args),
+    Suggest(suggest::Args),
+    Convert(convert::Args),
+    Generate(generate::Args),
     Fmt(fmt::Args),
     Explain(explain::Args),
     Completions(completions::Args),
@@ -27,6 +35,10 @@ pub enum Command {
 pub fn run(command: &Command, io: &mut Io) -> std::io::Result<Status> {
     match command {
         Command::Check(args) => check::run(args, io),
+        Command::Conditions(args) => conditions::run(args, io),
+        Command::Suggest(args) => suggest::run(args, io),
+        Command::Convert(args) => convert::run(args, io),
+        Command::Generate(args) => generate::run(args, io),
         Command::Fmt(args) => fmt::run(args, io),
         Command::Explain(args) => explain::run(args, io),
         Command::Completions(args) => completions::run(args, io),

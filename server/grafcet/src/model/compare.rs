@@ -1,8 +1,9 @@
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
-use logic::{Atoms, Budget, Expr, Function, Name};
+use logic::{Expr, Name};
 
 use super::instance::renamed_expr;
+use super::meaning::means_the_same;
 use super::{Grafcet, Transition};
 
 /// One way in which two grafcets differ as graphs. Steps are named as the
@@ -151,18 +152,4 @@ fn unmatched(left: Vec<Expr>, mut right: Vec<Expr>) -> (Vec<Expr>, Vec<Expr>) {
         })
         .collect();
     (only_left, right)
-}
-
-/// Whether two expressions denote the same function. Where finding out would
-/// cost too much, only equal expressions count as the same.
-pub(crate) fn means_the_same(left: &Expr, right: &Expr) -> bool {
-    if left == right {
-        return true;
-    }
-    let (mut atoms, budget) = (Atoms::new(), Budget::default());
-    let function = Function::of(left, &mut atoms, &budget);
-    match (function, Function::of(right, &mut atoms, &budget)) {
-        (Ok(left), Ok(right)) => left == right,
-        _ => false,
-    }
 }

@@ -6,7 +6,7 @@ use logic::Name;
 use source::{Diagnostic, Edit, Span, codes};
 
 use super::places::Scope;
-use super::rewrite::declaration;
+use super::rewrite::{Room, room};
 use super::spell;
 use super::syntax::{Document, Item, Kind, Mark, Statement, Usage};
 use super::words::{DECISION, Word};
@@ -25,9 +25,12 @@ pub(crate) fn diagnostics(
     }
     let declared = declared(document, &mut found);
     let scope = Scope::new(steps, spec);
+    let mut rooms = Rooms::default();
     for statement in &document.statements {
         for mark in &statement.marks {
-            found.extend(undeclared(document, statement, mark, &declared, &scope));
+            found.extend(undeclared(
+                document, statement, mark, &declared, &scope, &mut rooms,
+            ));
         }
         instances(statement, spec, &mut found);
     }
@@ -43,7 +46,11 @@ fn syntax(statement: &Statement) -> Option<Diagnostic> {
         let help = "write `//! accept a -> b`, `//! accept a -> b & c`, `//! reject a -> b`, \
                     `//! initial a`, `//! keep t1` or `//! end a`";
         let message = format!("decision not understood: {}", problem.message);
-        return Some(Diagnostic::new(codes::DECISION_SYNTAX, problem.span, message).help(help));
+        let span = match problem.span.is_empty() {
+            true => statement.span(),
+            false => problem.span,
+        };
+        return Some(Diagnostic::new(codes::DECISION_SYNTAX, span, message).help(help));
     }
     let what = match (&statement.kind, statement.label()) {
         (Kind::List(word, _), _) => format!("{} list", word.text()),
@@ -160,12 +167,34 @@ fn twice(mark: &Mark, first: Span) -> Diagnostic {
         .related(first, "declared here")
 }
 
+/// Where names can be declared, found once.
+#[derive(Default)]
+struct Rooms(HashMap<(Option<Name>, Word), Room>);
+
+impl Rooms {
+    fn declare(
+        &mut self,
+        document: &Document<'_>,
+        part: Option<&Name>,
+        word: Word,
+        name: &str,
+    ) -> Edit {
+        let key = (part.cloned(), word);
+        let room = self
+            .0
+            .entry(key)
+            .or_insert_with(|| room(document, part, word));
+        room.declare(document, word, name)
+    }
+}
+
 fn undeclared(
     document: &Document<'_>,
     statement: &Statement,
     mark: &Mark,
     declared: &Declared<'_>,
     scope: &Scope<'_>,
+    rooms: &mut Rooms,
 ) -> Option<Diagnostic> {
     let name = &mark.name;
     let part = statement.part.as_ref();
@@ -208,7 +237,7 @@ fn undeclared(
     Some(match word {
         Some(word) => {
             let part = part.filter(|_| !word.is_global());
-            let edit: Edit = declaration(document, part, word, &spelled);
+            let edit = rooms.declare(document, part, word, &spelled);
             let title = format!("Declare `{} {spelled}`", word.text());
             diagnostic
                 .help("declare it, or correct the spelling")
@@ -234,17 +263,19 @@ fn instances(statement: &Statement, spec: &Spec, found: &mut Vec<Diagnostic>) {
             continue;
         };
         let of = spell::name(&part.name);
-        let message = match &part.kind {
-            PartKind::Reusable { parameters } if parameters.len() == instance.arguments.len() => {
-                continue;
-            }
-            PartKind::Reusable { parameters } => format!(
-                "{of} takes {} names, and {} are given",
-                parameters.len(),
-                instance.arguments.len()
-            ),
-            _ => format!("{of} is not a reusable grafcet"),
+        let PartKind::Reusable { parameters } = &part.kind else {
+            let message = format!("{of} is not declared as a reusable grafcet");
+            found.push(
+                Diagnostic::new(codes::SPEC_UNDECLARED, entry.span, message)
+                    .help("begin the part with `Reusable` and its name"),
+            );
+            continue;
         };
+        let (wanted, given) = (parameters.len(), instance.arguments.len());
+        if wanted == given {
+            continue;
+        }
+        let message = format!("{of} takes {wanted} names, and {given} are given");
         let help = "an instance is written `Instance d1 of Drill(a, b)`, with one variable for \
                     each parameter of `Reusable Drill(x, y)`";
         found.push(Diagnostic::new(codes::SPEC_SYNTAX, entry.span, message).help(help));
@@ -295,7 +326,7 @@ fn no_initial_step(document: &Document<'_>, spec: &Spec) -> Option<Diagnostic> {
         .iter()
         .find(|statement| statement.span().range().contains(&first.span.range().start));
     let part = at.and_then(|statement| statement.part.as_ref());
-    let edit = declaration(document, part, Word::Marking, &name);
+    let edit = room(document, part, Word::Marking).declare(document, Word::Marking, &name);
     Some(
         Diagnostic::new(
             codes::SPEC_NO_INITIAL_STEP,

@@ -78,7 +78,7 @@ fn begins_statement(text: &str, line: &Line) -> bool {
         return true;
     }
     let leading = first.kind == TokenKind::Name && is_leading(first.text(text));
-    leading && (line.tokens.len() == 1 || is_word(kind(1)))
+    leading && (line.tokens.len() == 1 || is_word(kind(1)) || kind(1) == Some(TokenKind::Comma))
 }
 
 fn lines(text: &str) -> Vec<Line> {

@@ -39,15 +39,16 @@ pub(crate) fn read(parser: &mut Parser<'_>, word: Word, lines: &[Line]) -> Parse
             None => break parser.end(after(word)).err(),
         }
     };
-    place(parser.lexer.text(), lines, &mut entries);
+    place(parser.lexer.text(), lines, problem.is_some(), &mut entries);
     Parsed {
         kind: Kind::List(word, entries),
         problem,
     }
 }
 
-/// Gives each entry its line, and the line's comment where it is alone there.
-fn place(text: &str, lines: &[Line], entries: &mut [Entry]) {
+/// Gives each entry its line, and the line's comment where it is alone there:
+/// nothing else is declared, and nothing stands there that was not understood.
+fn place(text: &str, lines: &[Line], broken: bool, entries: &mut [Entry]) {
     let mut at = 0;
     for entry in entries.iter_mut() {
         let start = entry.span.range().start;
@@ -63,8 +64,9 @@ fn place(text: &str, lines: &[Line], entries: &mut [Entry]) {
             continue;
         };
         let within = entry.span.range().end <= line.end;
-        entry.alone =
-            within && before != Some(&entry.line) && line_of.get(at + 1) != Some(&entry.line);
+        let next = line_of.get(at + 1);
+        let shared = before == Some(&entry.line) || next == Some(&entry.line);
+        entry.alone = within && !shared && !(broken && next.is_none());
         if entry.alone {
             let comment = line.comment.and_then(|comment| comment_text(text, comment));
             entry.item.set_comment(comment);

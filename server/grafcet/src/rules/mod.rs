@@ -10,6 +10,7 @@
 //! Step Xv1 for v1                 // Fill the tank
 //! Transition t1, t2
 //! Input s %I0                     // Start button
+//! Input ls2
 //! Output v1 %Q0
 //! Marking X0
 //!
@@ -21,10 +22,10 @@
 //! Xv1: |- v1
 //!
 //! Environment:
-//! e1: ls3 |- ls2                  // whenever the left holds, the right does
+//! e1: s |- /ls2                   // whenever the left holds, the right does
 //!
 //! Never:
-//! n1: v1*v3
+//! n1: v1*ls2
 //!
 //! //! accept v1 -> v2 & h
 //! ```
@@ -59,4 +60,5 @@ pub use format::{Formatted, format};
 pub use places::{Mention, Places, Role, RulePlace};
 pub use read::{Reading, read};
 pub use rewrite::rewrite;
+pub use spell::action_text;
 pub use write::write;

@@ -9,6 +9,7 @@ use super::decisions::register_value;
 use super::lists::is_plain_address;
 use super::next_scan;
 use super::words::is_reserved;
+use crate::model::normal;
 use crate::{
     Action, ActionKind, Effect, EnvironmentRule, Instance, Part, PartKind, Property, Situation,
     Step, StepKind, Transition, Trigger, Variable,
@@ -144,14 +145,21 @@ pub(crate) fn transition(transition: &Transition, steps: &HashSet<Name>) -> Stri
 }
 
 pub(crate) fn action(action: &Action) -> String {
-    let mut text = format!("{}: ", name(&action.step));
-    if let Some(condition) = &action.condition {
-        text += &write(&normal(condition));
-        text.push(' ');
+    let text = action_text(action);
+    let sign = match action.condition {
+        Some(_) => "",
+        None => "|- ",
+    };
+    format!("{}: {sign}{text}", name(&action.step))
+}
+
+/// What an action does, as its rule says it, without the step: `R`,
+/// `set alarm on deactivation`, and with its condition `ls2 |- m`.
+pub fn action_text(action: &Action) -> String {
+    match &action.condition {
+        Some(condition) => format!("{} |- {}", write(&normal(condition)), effect(action)),
+        None => effect(action),
     }
-    text += "|- ";
-    text += &effect(action);
-    text
 }
 
 fn effect(action: &Action) -> String {
@@ -204,27 +212,4 @@ pub(crate) fn environment(rule: &EnvironmentRule) -> String {
 pub(crate) fn property(property: &Property) -> String {
     let condition = write(&normal(&property.condition));
     format!("{}: {condition}", name(&property.name))
-}
-
-/// The expression as reading its text gives it: no product or sum of fewer
-/// than two, no double complement, comparisons in their one form.
-pub(crate) fn normal(expr: &Expr) -> Expr {
-    match expr {
-        Expr::Constant(value) => Expr::Constant(*value),
-        Expr::Not(inner) => normal(inner).complement(),
-        Expr::And(parts) => many(parts, true, Expr::And),
-        Expr::Or(parts) => many(parts, false, Expr::Or),
-        Expr::Atom(Atom::Comparison(c)) => Expr::comparison(&c.left, c.relation, &c.right),
-        Expr::Atom(Atom::Rise(inner)) => Expr::Atom(Atom::Rise(Box::new(normal(inner)))),
-        Expr::Atom(Atom::Fall(inner)) => Expr::Atom(Atom::Fall(Box::new(normal(inner)))),
-        Expr::Atom(atom) => Expr::Atom(atom.clone()),
-    }
-}
-
-fn many(parts: &[Expr], empty: bool, make: fn(Vec<Expr>) -> Expr) -> Expr {
-    match parts {
-        [] => Expr::Constant(empty),
-        [only] => normal(only),
-        _ => make(parts.iter().map(normal).collect()),
-    }
 }

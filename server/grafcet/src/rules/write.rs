@@ -84,9 +84,13 @@ pub(crate) fn chart_lists(chart: &Chart) -> [(Word, Vec<Item>); 6] {
             .filter(|step| step_word(&step.kind) == word);
         of_word.cloned().map(Item::Step).collect()
     };
+    // In the order in which the lists above declare them.
     let marked = |is_marked: fn(&crate::Step) -> bool| {
-        let marked = chart.steps.iter().filter(|step| is_marked(step));
-        marked.map(|step| Item::Name(step.name.clone())).collect()
+        let mut marked: Vec<&crate::Step> =
+            chart.steps.iter().filter(|step| is_marked(step)).collect();
+        marked.sort_by_key(|step| step_word(&step.kind));
+        let names = marked.into_iter().map(|step| step.name.clone());
+        names.map(Item::Name).collect()
     };
     let transitions = chart.transitions.iter();
     [
@@ -141,7 +145,7 @@ pub(crate) fn list_lines(word: Word, items: &[Item]) -> Vec<String> {
 }
 
 /// Whether another name fits on a line.
-pub(crate) fn fits(line: &str, name: &str) -> bool {
+fn fits(line: &str, name: &str) -> bool {
     line.chars().count() + 2 + name.chars().count() <= WIDTH
 }
 

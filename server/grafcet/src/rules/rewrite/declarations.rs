@@ -6,6 +6,7 @@ use logic::Name;
 
 use super::edits::Edits;
 use super::lists::{self, Fate, Fates, Wanted};
+use super::spots::OpenList;
 use super::{part_names, spots};
 use crate::Spec;
 use crate::rules::syntax::{Document, Item, Kind};
@@ -117,45 +118,57 @@ fn insert_declarations(
     // New parts bring their declarations along.
     missing.retain(|wanted| wanted.part.as_ref().is_none_or(|part| known.contains(part)));
     missing.sort_by_key(|wanted| wanted.word);
-    // Names that went to the end of a list, by the place where that is.
-    let mut appended: HashMap<usize, String> = HashMap::new();
-    let mut lines: Vec<(Word, Option<Name>, Vec<Item>)> = Vec::new();
-    for Wanted { word, part, item } in missing {
-        let text = item_text(&item);
-        let room = spots::open_list(document, part.as_ref(), word, &text);
-        let intact = room.filter(|(at, _)| {
-            let entries = match document
-                .statements
-                .get(*at)
-                .map(|statement| &statement.kind)
-            {
-                Some(Kind::List(_, entries)) => entries.len(),
-                _ => 0,
-            };
-            (0..entries).all(|nth| {
-                let fate = fates.get(&(*at, nth));
-                matches!(fate, None | Some(Fate::Keep))
-            })
-        });
-        if let Some((_, end)) = intact.filter(|_| is_bare(&item)) {
-            let names = appended.entry(end).or_default();
-            let room = spots::open_list(document, part.as_ref(), word, &format!("{names}{text}"));
-            if room.is_some() {
-                names.push_str(", ");
-                names.push_str(&text);
-                continue;
-            }
-        }
-        match lines.last_mut() {
-            Some((other, place, items)) if *other == word && *place == part => items.push(item),
-            _ => lines.push((word, part, vec![item])),
+    let same_place = |a: &Wanted, b: &Wanted| a.word == b.word && a.part == b.part;
+    for group in missing.chunk_by(same_place) {
+        if let [first, ..] = group {
+            insert_group(
+                document,
+                first.word,
+                first.part.as_ref(),
+                group,
+                fates,
+                edits,
+            );
         }
     }
-    for (end, names) in appended {
-        edits.replace(end, end, names);
+}
+
+/// Inserts what one word declares in one part: bare names at the end of a list
+/// that no other change touches, as long as they fit, the others on new lines.
+fn insert_group(
+    document: &Document<'_>,
+    word: Word,
+    part: Option<&Name>,
+    group: &[Wanted],
+    fates: &Fates,
+    edits: &mut Edits<'_>,
+) {
+    let room = spots::room(document, part, word);
+    let list = room
+        .list
+        .filter(|list| is_untouched(document, list.at, fates));
+    let mut appended = String::new();
+    let mut items: Vec<Item> = Vec::new();
+    for Wanted { item, .. } in group {
+        let text = item_text(item);
+        let fits = |list: &OpenList| list.fits(&format!("{appended}{text}"));
+        if is_bare(item) && list.as_ref().is_some_and(fits) {
+            appended = format!("{appended}, {text}");
+        } else {
+            items.push(item.clone());
+        }
     }
-    for (word, part, items) in lines {
-        let at = spots::for_declaration(document, part.as_ref(), word);
-        edits.insert_lines(at, &list_lines(word, &items));
+    if let Some(list) = list.filter(|_| !appended.is_empty()) {
+        edits.replace(list.end, list.end, appended);
     }
+    edits.insert_lines(room.line, &list_lines(word, &items));
+}
+
+fn is_untouched(document: &Document<'_>, at: usize, fates: &Fates) -> bool {
+    let statement = document.statements.get(at);
+    let entries = match statement.map(|statement| &statement.kind) {
+        Some(Kind::List(_, entries)) => entries.len(),
+        _ => 0,
+    };
+    (0..entries).all(|nth| matches!(fates.get(&(at, nth)), None | Some(Fate::Keep)))
 }

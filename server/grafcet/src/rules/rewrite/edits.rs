@@ -74,8 +74,9 @@ impl<'d> Edits<'d> {
     /// The text with all replacements made.
     pub(super) fn apply(mut self) -> String {
         let text = self.document.text;
-        // Stable: insertions at one place keep the order they were made in.
-        self.list.sort_by_key(|edit| edit.span.start);
+        // Insertions at one place keep the order they were made in, and come
+        // before what is replaced there.
+        self.list.sort_by_key(|edit| edit.span);
         let mut out = String::with_capacity(text.len());
         let mut written = 0;
         for edit in &self.list {

@@ -214,11 +214,17 @@ fn remove(statement: &Statement, entries: &[Entry], removed: &[bool], edits: &mu
     let gone = |nth: usize| removed.get(nth).copied().unwrap_or(false);
     let last_kept = removed.iter().rposition(|removed| !removed);
     let broken = statement.problem.is_some();
+    let next_on_line = |nth: usize| {
+        let line = entries.get(nth).map(|entry| entry.line);
+        let next = entries.get(nth + 1);
+        next.filter(|next| Some(next.line) == line)
+    };
     let comma = last_kept
         .filter(|last| last + 1 < entries.len() && !broken)
-        .and_then(|last| entries.get(last)?.comma);
-    if let Some(comma) = comma {
-        edits.remove(comma.range().start, comma.range().end);
+        .and_then(|last| Some((last, entries.get(last)?.comma?)));
+    if let Some((last, comma)) = comma {
+        let next = next_on_line(last).map(|next| next.span.range().start);
+        edits.remove(comma.range().start, next.unwrap_or(comma.range().end));
     }
     let whole = whole_lines(entries, removed, broken);
     for line in whole.iter().filter_map(|line| statement.lines.get(*line)) {
@@ -230,15 +236,12 @@ fn remove(statement: &Statement, entries: &[Entry], removed: &[bool], edits: &mu
         }
         let range = entry.span.range();
         let is_last = nth + 1 == entries.len();
-        let next = entries.get(nth + 1).filter(|next| next.line == entry.line);
-        match (next, entry.comma) {
+        match (next_on_line(nth), entry.comma) {
             _ if is_last && broken => edits.replace(range.start, range.end, ","),
             _ if is_last => edits.remove(range.start, range.end),
-            (Some(next), _) if last_kept.is_some_and(|last| last > nth) => {
-                edits.remove(range.start, next.span.range().start);
-            }
-            (_, Some(comma)) => edits.remove(range.start, comma.range().end),
-            _ => edits.remove(range.start, range.end),
+            (Some(next), _) => edits.remove(range.start, next.span.range().start),
+            (None, Some(comma)) => edits.remove(range.start, comma.range().end),
+            (None, None) => edits.remove(range.start, range.end),
         }
         let comment = statement
             .lines

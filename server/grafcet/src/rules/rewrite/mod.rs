@@ -17,7 +17,7 @@ use logic::Name;
 use self::edits::Edits;
 use self::lines::{follows_unfinished, remove_statement};
 use self::rules::{Counts, How, Placed};
-pub(crate) use self::spots::declaration;
+pub(crate) use self::spots::{Room, room};
 use super::parse;
 use super::syntax::{Document, Kind};
 use super::words::Section;
@@ -58,11 +58,13 @@ pub fn rewrite(text: &str, target: &Spec) -> String {
     name(&document, target, &mut edits);
     declarations::edit(&document, target, &mut edits);
     parts(&document, target, &mut edits);
-    transitions(&document, target, &steps, &mut edits);
-    actions(&document, target, &mut edits);
+    let mut charts = transitions(&document, target, &steps, &mut edits);
+    charts.extend(actions(&document, target, &mut edits));
+    insert(charts, &mut edits);
+    let mut sections = environment(&document, target, &mut edits);
+    sections.extend(never(&document, target, &mut edits));
     new_parts(&document, target, &steps, &mut edits);
-    environment(&document, target, &mut edits);
-    never(&document, target, &mut edits);
+    insert(sections, &mut edits);
     decided(&document, target, &mut edits);
     edits.apply()
 }
@@ -124,18 +126,42 @@ fn parts(document: &Document<'_>, target: &Spec, edits: &mut Edits<'_>) {
             (Kind::Part(..), Some(None)) => {
                 remove_statement(statement, follows_unfinished(document, at), edits);
             }
+            (Kind::Broken(Some(_)), Some(None)) if statement.section.is_none() => {
+                move_to_first_block(document, at, edits);
+            }
             (Kind::Section(section), Some(None)) if is_free(document, at, *section) => {
                 remove_statement(statement, follows_unfinished(document, at), edits);
             }
-            (Kind::Part(name, kind), Some(Some(part))) => {
-                if seen.insert(name) && *kind != part.kind {
-                    let range = statement.span().range();
-                    edits.replace(range.start, range.end, spell::part(part));
-                }
+            (Kind::Part(name, kind), Some(Some(part)))
+                if seen.insert(name) && *kind != part.kind =>
+            {
+                let range = statement.span().range();
+                edits.replace(range.start, range.end, spell::part(part));
             }
             _ => {}
         }
     }
+}
+
+/// Moves a rule that stands under no section, and therefore means nothing, to
+/// where it goes on doing so: when the part before it goes, it would come to
+/// stand under the section before that.
+fn move_to_first_block(document: &Document<'_>, at: usize, edits: &mut Edits<'_>) {
+    let Some(statement) = document.statements.get(at) else {
+        return;
+    };
+    let mut lines = vec![String::new()];
+    // Comment lines inside it stay where they are.
+    let moved = statement
+        .lines
+        .iter()
+        .filter(|line| !line.tokens.is_empty());
+    for line in moved {
+        let text = document.text.get(line.start..line.end);
+        lines.push(text.unwrap_or_default().to_owned());
+    }
+    remove_statement(statement, follows_unfinished(document, at), edits);
+    edits.insert_lines(spots::end_of_first_block(document), &lines);
 }
 
 /// Whether the head of a section of a part that goes may go too: nothing that
@@ -147,7 +173,20 @@ fn is_free(document: &Document<'_>, at: usize, section: Section) -> bool {
     !section.is_global() && under.all(|statement| statement.problem.is_none())
 }
 
-/// Makes the edits of one kind of rule, and inserts those that are missing.
+/// A section that is not there yet, and where it goes.
+struct NewSection {
+    at: usize,
+    lines: Vec<String>,
+}
+
+fn insert(sections: Vec<NewSection>, edits: &mut Edits<'_>) {
+    for NewSection { at, lines } in sections {
+        edits.insert_block(at, lines);
+    }
+}
+
+/// Makes the edits of one kind of rule, and inserts those that are missing
+/// where their section is there. Gives the sections that are not.
 fn rules_of<T: SaysTheSame, K: Eq + Hash>(
     document: &Document<'_>,
     section: Section,
@@ -155,7 +194,7 @@ fn rules_of<T: SaysTheSame, K: Eq + Hash>(
     wanted: &[Placed<T>],
     how: &How<'_, T, K>,
     edits: &mut Edits<'_>,
-) {
+) -> Vec<NewSection> {
     let missing = rules::edit(document, own, wanted, how, edits);
     let known = part_names(document);
     let mut lines: Vec<(Option<&Name>, Vec<String>)> = Vec::new();
@@ -176,6 +215,7 @@ fn rules_of<T: SaysTheSame, K: Eq + Hash>(
             _ => lines.push((wanted.part.as_ref(), vec![line])),
         }
     }
+    let mut sections = Vec::new();
     for (part, lines) in lines {
         if let Some(at) = spots::for_rule(document, part, section) {
             edits.insert_lines(at, &lines);
@@ -185,8 +225,10 @@ fn rules_of<T: SaysTheSame, K: Eq + Hash>(
             true => spots::for_global_section(document, section),
             false => spots::for_section(document, part, section),
         };
-        edits.insert_block(at, section_lines(section, lines));
+        let lines = section_lines(section, lines);
+        sections.push(NewSection { at, lines });
     }
+    sections
 }
 
 /// The statements that `pick` finds a rule in, each with its part.
@@ -228,7 +270,7 @@ fn transitions(
     target: &Spec,
     steps: &HashSet<Name>,
     edits: &mut Edits<'_>,
-) {
+) -> Vec<NewSection> {
     let own = own(document, |kind| match kind {
         Kind::Transition(rule) => Some(rule.meaning(steps)),
         _ => None,
@@ -240,10 +282,10 @@ fn transitions(
         comment: |transition| transition.comment.as_ref(),
     };
     let wanted = of_charts(target, |chart| &chart.transitions);
-    rules_of(document, Section::Transitions, own, &wanted, &how, edits);
+    rules_of(document, Section::Transitions, own, &wanted, &how, edits)
 }
 
-fn actions(document: &Document<'_>, target: &Spec, edits: &mut Edits<'_>) {
+fn actions(document: &Document<'_>, target: &Spec, edits: &mut Edits<'_>) -> Vec<NewSection> {
     let own = own(document, |kind| match kind {
         Kind::Action(action) => Some(action.clone()),
         _ => None,
@@ -271,7 +313,7 @@ fn actions(document: &Document<'_>, target: &Spec, edits: &mut Edits<'_>) {
         comment: |action| action.comment.as_ref(),
     };
     let wanted = of_charts(target, |chart| &chart.actions);
-    rules_of(document, Section::Steps, own, &wanted, &how, edits);
+    rules_of(document, Section::Steps, own, &wanted, &how, edits)
 }
 
 fn new_parts(document: &Document<'_>, target: &Spec, steps: &HashSet<Name>, edits: &mut Edits<'_>) {
@@ -285,7 +327,7 @@ fn new_parts(document: &Document<'_>, target: &Spec, steps: &HashSet<Name>, edit
     }
 }
 
-fn environment(document: &Document<'_>, target: &Spec, edits: &mut Edits<'_>) {
+fn environment(document: &Document<'_>, target: &Spec, edits: &mut Edits<'_>) -> Vec<NewSection> {
     let own = own(document, |kind| match kind {
         Kind::Environment(rule) => Some(rule.clone()),
         _ => None,
@@ -297,10 +339,10 @@ fn environment(document: &Document<'_>, target: &Spec, edits: &mut Edits<'_>) {
         comment: |rule| rule.comment.as_ref(),
     };
     let wanted = global(&target.environment);
-    rules_of(document, Section::Environment, own, &wanted, &how, edits);
+    rules_of(document, Section::Environment, own, &wanted, &how, edits)
 }
 
-fn never(document: &Document<'_>, target: &Spec, edits: &mut Edits<'_>) {
+fn never(document: &Document<'_>, target: &Spec, edits: &mut Edits<'_>) -> Vec<NewSection> {
     let own = own(document, |kind| match kind {
         Kind::Never(property) => Some(property.clone()),
         _ => None,
@@ -312,7 +354,7 @@ fn never(document: &Document<'_>, target: &Spec, edits: &mut Edits<'_>) {
         comment: |property| property.comment.as_ref(),
     };
     let wanted = global(&target.never);
-    rules_of(document, Section::Never, own, &wanted, &how, edits);
+    rules_of(document, Section::Never, own, &wanted, &how, edits)
 }
 
 fn decided(document: &Document<'_>, target: &Spec, edits: &mut Edits<'_>) {

@@ -10,15 +10,14 @@ use source::{Edit, Span};
 use super::edits::whole_lines;
 use crate::rules::syntax::{Document, Kind, Statement};
 use crate::rules::words::{Section, Word};
-use crate::rules::write::{fits, is_bare};
+use crate::rules::write::{WIDTH, is_bare};
 
 /// Where new lines that declare with `word` go.
 pub(super) fn for_declaration(document: &Document<'_>, part: Option<&Name>, word: Word) -> usize {
     let rank_of = |statement: &Statement| match &statement.kind {
-        Kind::List(other, _) if other.is_global() || statement.part.as_ref() == part => {
-            Some(Some(*other))
-        }
-        Kind::Grafcet(_) if part.is_none() => Some(None),
+        Kind::List(other, _) if word.is_global() && other.is_global() => Some(Some(*other)),
+        Kind::List(other, _) if statement.part.as_ref() == part => Some(Some(*other)),
+        Kind::Grafcet(_) if part.is_none() && statement.part.is_none() => Some(None),
         Kind::Part(name, _) if Some(name) == part => Some(None),
         _ => None,
     };
@@ -44,14 +43,57 @@ fn is_significant(statement: &Statement) -> bool {
     !statement.tokens.is_empty()
 }
 
-/// An existing list of bare names that may take one more bare name: the place
-/// where its last name ends.
-pub(super) fn open_list(
-    document: &Document<'_>,
-    part: Option<&Name>,
-    word: Word,
-    name: &str,
-) -> Option<(usize, usize)> {
+/// Where new names can be declared with one word in one part.
+pub(crate) struct Room {
+    /// The last list there, if it holds bare names alone.
+    pub(super) list: Option<OpenList>,
+    /// Where new lines go.
+    pub(super) line: usize,
+}
+
+/// A list that may take more bare names at its end.
+pub(super) struct OpenList {
+    /// The place of its statement.
+    pub(super) at: usize,
+    /// Where its last name ends.
+    pub(super) end: usize,
+    /// How many characters its last line has.
+    width: usize,
+}
+
+impl OpenList {
+    /// Whether `names` still fit on its last line, a comma before them.
+    pub(super) fn fits(&self, names: &str) -> bool {
+        self.width + 2 + names.chars().count() <= WIDTH
+    }
+}
+
+/// Where new names can be declared.
+pub(crate) fn room(document: &Document<'_>, part: Option<&Name>, word: Word) -> Room {
+    Room {
+        list: open_list(document, part, word),
+        line: for_declaration(document, part, word),
+    }
+}
+
+impl Room {
+    /// The edit that declares one more name, spelled as in the text.
+    pub(crate) fn declare(&self, document: &Document<'_>, word: Word, name: &str) -> Edit {
+        if let Some(list) = self.list.as_ref().filter(|list| list.fits(name)) {
+            return Edit {
+                span: Span::at(list.end),
+                text: format!(", {name}"),
+            };
+        }
+        let line = format!("{} {name}", word.text());
+        Edit {
+            span: Span::at(self.line),
+            text: whole_lines(document.text, self.line, &[line], document.line_end()),
+        }
+    }
+}
+
+fn open_list(document: &Document<'_>, part: Option<&Name>, word: Word) -> Option<OpenList> {
     let of_word = |statement: &Statement| match &statement.kind {
         Kind::List(other, _) => {
             *other == word && (word.is_global() || statement.part.as_ref() == part)
@@ -64,33 +106,15 @@ pub(super) fn open_list(
         return None;
     };
     let quiet = statement.lines.iter().all(|line| line.comment.is_none());
+    let bare = entries.iter().all(|entry| is_bare(&entry.item));
     let line = statement.lines.last()?;
     let text = document.text.get(line.start..line.end)?;
-    let bare = entries.iter().all(|entry| is_bare(&entry.item));
-    let open = quiet && bare && statement.problem.is_none() && fits(text.trim_end(), name);
-    let end = entries.last()?.span.range().end;
-    open.then_some((at, end))
-}
-
-/// The edit that declares `name`, spelled as in the text, with `word`.
-pub(crate) fn declaration(
-    document: &Document<'_>,
-    part: Option<&Name>,
-    word: Word,
-    name: &str,
-) -> Edit {
-    if let Some((_, end)) = open_list(document, part, word, name) {
-        return Edit {
-            span: Span::at(end),
-            text: format!(", {name}"),
-        };
-    }
-    let at = for_declaration(document, part, word);
-    let line = format!("{} {name}", word.text());
-    Edit {
-        span: Span::at(at),
-        text: whole_lines(document.text, at, &[line], document.line_end()),
-    }
+    let list = OpenList {
+        at,
+        end: entries.last()?.span.range().end,
+        width: text.trim_end().chars().count(),
+    };
+    (quiet && bare && statement.problem.is_none()).then_some(list)
 }
 
 /// Where new rules of a section go, if the section is there.
@@ -134,7 +158,7 @@ pub(super) fn for_part(document: &Document<'_>) -> usize {
     let blocks = blocks(document);
     let last = blocks
         .iter()
-        .rfind(|block| !block.is_global() || block.has_chart);
+        .rfind(|block| !block.is_global() || block.declares);
     last.map_or(document.text.len(), |block| block.end)
 }
 
@@ -149,6 +173,14 @@ pub(super) fn for_global_section(document: &Document<'_>, section: Section) -> u
         _ => blocks.last(),
     };
     before.map_or(document.text.len(), |block| block.end)
+}
+
+/// Where the lines before the first head end.
+pub(super) fn end_of_first_block(document: &Document<'_>) -> usize {
+    let blocks = blocks(document);
+    blocks
+        .first()
+        .map_or(document.text.len(), |block| block.end)
 }
 
 /// Where new decisions go, and whether any are there.
@@ -166,8 +198,8 @@ struct Block<'d> {
     section: Option<Section>,
     /// Where the line after its last statement starts.
     end: usize,
-    /// Whether a declaration in it belongs to a chart.
-    has_chart: bool,
+    /// Whether declarations stand in it, after which more may come.
+    declares: bool,
 }
 
 impl Block<'_> {
@@ -183,7 +215,7 @@ fn blocks<'d>(document: &'d Document<'_>) -> Vec<Block<'d>> {
         part: None,
         section: None,
         end: begins.map_or(document.text.len(), Statement::start),
-        has_chart: false,
+        declares: false,
     }];
     for statement in &document.statements {
         if !is_significant(statement) {
@@ -194,15 +226,12 @@ fn blocks<'d>(document: &'d Document<'_>) -> Vec<Block<'d>> {
                 part: statement.part.as_ref(),
                 section: statement.section,
                 end: statement.next(),
-                has_chart: false,
+                declares: false,
             });
         }
         if let Some(block) = blocks.last_mut() {
             block.end = statement.next();
-            block.has_chart |= match &statement.kind {
-                Kind::List(word, _) => !word.is_global(),
-                _ => false,
-            };
+            block.declares |= matches!(statement.kind, Kind::List(..) | Kind::Grafcet(_));
         }
     }
     blocks

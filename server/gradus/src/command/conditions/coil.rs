@@ -1,0 +1,217 @@
+//! Coils with all that is known of them, in words.
+
+use std::collections::BTreeMap;
+
+use ladder::{CoilKind, Routine, Rung};
+use logic::{AtomId, Budget, Function, Name};
+use recovery::Analysis;
+use recovery::conditions::{Conditions, Place, Variable, WriteKind};
+use source::Span;
+
+use crate::condition::said;
+
+/// A variable that coils write.
+pub struct Coil<'a> {
+    /// Its name in conditions.
+    pub name: &'a Name,
+    /// Its address, where it has one.
+    pub address: Option<&'a str>,
+    /// What the source says about it.
+    pub description: Option<Name>,
+    /// Its conditions; `None` past the budget.
+    pub conditions: Option<Said>,
+    /// Its conditions with auxiliary coils resolved, where these differ.
+    pub resolved: Option<Said>,
+    /// Whether it keeps itself on.
+    pub persistent: bool,
+    /// What it is among the variables of the program.
+    pub part: Part,
+    /// Coils that hold a state and stand before it as normally closed contacts.
+    pub interlocks: Vec<Name>,
+    /// What unknown boxes do to it.
+    pub opaque: Vec<String>,
+    /// Where coils write it, in the order of the source.
+    pub writes: Vec<Drawn<'a>>,
+}
+
+/// The four conditions, each as text.
+pub struct Said {
+    pub activation: String,
+    pub turns_on: String,
+    pub stays_on: String,
+    pub deactivation: String,
+}
+
+/// What a coil is for.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Part {
+    /// A state of the process.
+    State,
+    /// An output that some states set and others reset.
+    Repeats,
+    /// It keeps its value, but nothing starts it or nothing ends it.
+    Keeps,
+    /// Its value stays only while its rung is skipped.
+    KeptWhenSkipped,
+    /// Its rung falls when it is on.
+    Oscillates,
+    /// It carries a condition from states to other rungs.
+    Auxiliary,
+    /// It follows its condition.
+    Follows,
+}
+
+/// A coil as it is drawn.
+pub struct Drawn<'a> {
+    pub kind: CoilKind,
+    pub routine: &'a Routine,
+    pub rung: &'a Rung,
+    /// The power at it; `None` past the budget.
+    pub guard: Option<String>,
+    /// When its rung is solved; `None` past the budget.
+    pub solved: Option<String>,
+    /// The bytes of the coil.
+    pub span: Span,
+}
+
+impl Coil<'_> {
+    /// Whether `name` is its name or its address.
+    pub fn is_called(&self, name: &str) -> bool {
+        **self.name == *name || self.address == Some(name)
+    }
+}
+
+/// All coils, in the order of the source.
+pub fn coils<'a>(analysis: &'a Analysis<'_>, budget: &Budget) -> Vec<Coil<'a>> {
+    let variables = analysis.conditions.variables.iter();
+    let mut coils: Vec<Coil<'a>> = variables
+        .map(|variable| coil(variable, analysis, budget))
+        .filter(|coil| !coil.writes.is_empty())
+        .collect();
+    coils.sort_by_key(|coil| coil.writes.first().map(|write| write.span));
+    coils
+}
+
+fn coil<'a>(variable: &'a Variable, analysis: &'a Analysis<'_>, budget: &Budget) -> Coil<'a> {
+    let conditions = &analysis.conditions;
+    let declared = analysis.program.declarations.find(&variable.name);
+    let next = variable.next.as_ref().ok();
+    let say = |next: &Function| four(next, variable.atom, conditions, budget);
+    let resolved = next.and_then(|next| {
+        let auxiliaries = &analysis.states.auxiliaries;
+        let resolved = auxiliaries.resolve(next, conditions, budget);
+        (resolved != *next).then(|| say(&resolved))?
+    });
+    let opaque = next.map_or(Vec::new(), |next| conditions.opaque_in(next));
+    Coil {
+        name: &variable.name,
+        address: declared.and_then(|it| it.address.as_deref()),
+        description: analysis.description(&variable.name),
+        conditions: next.and_then(say),
+        resolved,
+        persistent: variable.is_persistent(budget) && !variable.kept_when_skipped,
+        part: part(variable, analysis, budget),
+        interlocks: interlocks(variable, analysis),
+        opaque: opaque
+            .into_iter()
+            .map(|atom| conditions.atoms.atom(atom).to_string())
+            .collect(),
+        writes: writes(variable, analysis, budget),
+    }
+}
+
+fn four(next: &Function, atom: AtomId, conditions: &Conditions, budget: &Budget) -> Option<Said> {
+    let stays_on = next.restrict(atom, true);
+    Some(Said {
+        activation: said(next, conditions, budget)?,
+        turns_on: said(&next.restrict(atom, false), conditions, budget)?,
+        deactivation: said(&stays_on.not(), conditions, budget)?,
+        stays_on: said(&stays_on, conditions, budget)?,
+    })
+}
+
+fn part(variable: &Variable, analysis: &Analysis<'_>, budget: &Budget) -> Part {
+    let atom = variable.atom;
+    if analysis.states.state(atom).is_some() {
+        Part::State
+    } else if analysis.states.stored.iter().any(|it| it.atom == atom) {
+        Part::Repeats
+    } else if variable.kept_when_skipped {
+        Part::KeptWhenSkipped
+    } else if variable.is_persistent(budget) {
+        Part::Keeps
+    } else if variable.falls_in_itself(budget) {
+        Part::Oscillates
+    } else if analysis.states.auxiliaries.contains(atom) {
+        Part::Auxiliary
+    } else {
+        Part::Follows
+    }
+}
+
+fn interlocks(variable: &Variable, analysis: &Analysis<'_>) -> Vec<Name> {
+    let closed = variable.closed_contacts.iter();
+    closed
+        .filter_map(|atom| analysis.states.state(*atom))
+        .map(|state| state.name.clone())
+        .collect()
+}
+
+/// The coils that write a variable. One in a routine that is called from
+/// several places is drawn once, and solved when any of them calls.
+fn writes<'a>(
+    variable: &'a Variable,
+    analysis: &'a Analysis<'_>,
+    budget: &Budget,
+) -> Vec<Drawn<'a>> {
+    let conditions = &analysis.conditions;
+    let mut solved: BTreeMap<Place, Option<Function>> = BTreeMap::new();
+    for write in &variable.writes {
+        let here = write.solved.as_ref().ok();
+        let before = solved
+            .entry(write.place)
+            .or_insert_with(|| Some(Function::constant(false)));
+        *before = before
+            .take()
+            .zip(here)
+            .and_then(|(before, here)| before.or(here, budget).ok());
+    }
+    let mut drawn = Vec::new();
+    for write in &variable.writes {
+        let WriteKind::Coil(kind) = write.kind else {
+            continue;
+        };
+        let Some(solved) = solved.remove(&write.place) else {
+            continue;
+        };
+        let Some(routine) = analysis.program.routines.get(write.place.routine) else {
+            continue;
+        };
+        let Some(rung) = routine.rungs.get(write.place.rung) else {
+            continue;
+        };
+        let guard = write.guard.as_ref().ok();
+        drawn.push(Drawn {
+            kind,
+            routine,
+            rung,
+            guard: guard.and_then(|guard| said(guard, conditions, budget)),
+            solved: solved.and_then(|solved| said(&solved, conditions, budget)),
+            span: write.span,
+        });
+    }
+    drawn.sort_by_key(|write| write.span);
+    drawn
+}
+
+/// The word for a kind of coil in answers.
+pub fn kind_word(kind: CoilKind) -> &'static str {
+    match kind {
+        CoilKind::Plain => "plain",
+        CoilKind::Negated => "negated",
+        CoilKind::Set => "set",
+        CoilKind::Reset => "reset",
+        CoilKind::Rising => "rising",
+        CoilKind::Falling => "falling",
+    }
+}

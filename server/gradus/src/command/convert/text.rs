@@ -1,0 +1,103 @@
+//! What came of a conversion, for people.
+
+use logic::Name;
+use recovery::successions::{Evidence, Succession};
+
+use super::outcome::{OfState, Outcome};
+use super::spec_file::State;
+use crate::colour::Paint;
+use crate::input::numbered;
+use crate::report::printable;
+
+/// Of many names only so many are listed.
+const MOST_NAMED: usize = 8;
+
+/// What was accepted, what is open, and what the spec holds now.
+pub fn summary(outcome: &Outcome<'_>, name: &str, state: State, paint: Paint) -> String {
+    let mut out = String::new();
+    for state in &outcome.states {
+        of_state(&mut out, state, paint);
+    }
+    let (is_sequence, reason) = &outcome.verdict;
+    if !is_sequence {
+        let head = paint.bold("No sequence here:");
+        out += &format!("{head} {}\n", printable(reason));
+    }
+    if !outcome.two_step.is_empty() {
+        let count = numbered(outcome.two_step.len(), "state");
+        let names = listed(outcome.two_step.iter());
+        out += &format!("{count} left as a grafcet of two steps each: {names}\n");
+    }
+    if !outcome.without_step.is_empty() {
+        let count = numbered(outcome.without_step.len(), "state");
+        let names = listed(outcome.without_step.iter());
+        out += &format!("{count} without a step, since nothing accepted leads there: {names}\n");
+    }
+    let open: usize = outcome.states.iter().map(|state| state.open.len()).sum();
+    if open > 0 {
+        let open = numbered(open, "suggestion");
+        out += &format!("{open} open: decide with --interactive, or accept with --accept\n");
+    }
+    let word = match state {
+        State::New => "written",
+        State::Changed => "updated",
+        State::Unchanged => "unchanged",
+        State::WouldChange => "would change",
+        State::Printed => "printed",
+    };
+    let name = paint.bold(&printable(name));
+    out += &format!(
+        "{name}: {word}: {}, {}, {}\n",
+        numbered(outcome.steps, "step"),
+        numbered(outcome.transitions, "transition"),
+        numbered(outcome.actions, "action")
+    );
+    out
+}
+
+fn of_state(out: &mut String, state: &OfState<'_>, paint: Paint) {
+    out.push_str(&paint.bold(&printable(&state.name)));
+    if let Some(description) = &state.description {
+        out.push_str(&format!("  {}", printable(description)));
+    }
+    out.push('\n');
+    if state.initial {
+        out.push_str("  initial\n");
+    }
+    for accepted in &state.accepted {
+        let to: Vec<String> = accepted.to.iter().map(|name| printable(name)).collect();
+        let new = if accepted.new { "  (new)" } else { "" };
+        out.push_str(&format!("  accepted  -> {}{new}\n", to.join(" & ")));
+    }
+    for to in &state.written {
+        out.push_str(&format!("  written   -> {}\n", printable(to)));
+    }
+    for (word, evidence) in [
+        ("open", Evidence::Handover),
+        ("possible", Evidence::Possible),
+    ] {
+        let open: Vec<&&Succession> = state
+            .open
+            .iter()
+            .filter(|it| it.evidence == evidence)
+            .collect();
+        if !open.is_empty() {
+            let names = listed(open.iter().map(|it| &it.to));
+            out.push_str(&format!("  {word:<8}  -> {names}\n"));
+        }
+    }
+    if !state.rejected.is_empty() {
+        let names = listed(state.rejected.iter());
+        out.push_str(&format!("  rejected  -> {names}\n"));
+    }
+    out.push('\n');
+}
+
+fn listed<'n>(names: impl ExactSizeIterator<Item = &'n Name>) -> String {
+    let more = names.len().saturating_sub(MOST_NAMED);
+    let named: Vec<String> = names.take(MOST_NAMED).map(|name| printable(name)).collect();
+    match more {
+        0 => named.join(", "),
+        more => format!("{} and {more} more", named.join(", ")),
+    }
+}

@@ -1,0 +1,145 @@
+//! `gradus generate`: other forms of a spec's grafcet.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use clap::ValueEnum;
+use grafcet::Grafcet;
+use ladder::Format;
+use source::{Diagnostic, Severity};
+
+use crate::file;
+use crate::input::{self, numbered};
+use crate::io::{Io, is_standard_input};
+use crate::language;
+use crate::report::{self, printable};
+use crate::status::Status;
+
+const DETAILS: &str = "\
+JSON:
+  {\"name\", \"steps\": [{\"name\", \"initial\", \"state\", \"macro\"}],
+    \"transitions\": [{\"name\", \"from\": [], \"to\": [], \"receptivity\"}],
+    \"actions\": [{\"step\", \"kind\", \"output\", \"condition\"}],
+    \"inputs\": [], \"outputs\": []}
+  `state` is the coil or the register value that a step stands for as the ladder
+  spells it (`v1`, `X.3`, `Seq=10`), null for an auxiliary step; `macro` is the
+  expansion of a macro-step, else null. `kind` of an action is continuous, set,
+  reset, assign, the last three also with -on-deactivation or -on-event, or
+  force. Instances of reusable grafcets are written out.
+
+dot is the language of Graphviz.
+
+Exit status: 1 if the text of the spec has errors; what was understood is written
+all the same. 2 if a file cannot be read or written, or would take the place of a
+ladder or a spec.
+
+Examples:
+  gradus generate tank.grafcet --to dot | dot -Tsvg -o tank.svg
+  gradus generate tank.grafcet --to json -o tank.json";
+
+/// Write other forms of a spec: JSON or dot.
+#[derive(Debug, clap::Args)]
+#[command(after_long_help = DETAILS)]
+pub struct Args {
+    /// The spec; `-` is standard input.
+    #[arg(value_name = "SPEC")]
+    spec: PathBuf,
+
+    /// The form.
+    #[arg(long, value_name = "FORM")]
+    to: Form,
+
+    /// Where to write it; without it, and for `-`, standard output.
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Form {
+    /// For programs.
+    Json,
+    /// For pictures, by Graphviz.
+    Dot,
+}
+
+impl Form {
+    fn of(self, grafcet: &Grafcet) -> String {
+        match self {
+            Self::Json => format!("{:#}\n", generate::to_json(grafcet)),
+            Self::Dot => generate::to_dot(grafcet),
+        }
+    }
+}
+
+/// Writes the form that was asked for.
+pub fn run(args: &Args, io: &mut Io) -> std::io::Result<Status> {
+    let Some((grafcet, status)) = read(&args.spec, io)? else {
+        return Ok(Status::Usage);
+    };
+    let text = args.to.of(&grafcet);
+    let Some(path) = args.output.as_deref().filter(|it| !is_standard_input(it)) else {
+        io.answer().write_all(text.as_bytes())?;
+        return Ok(status);
+    };
+    let name = printable(&input::name(path));
+    if holds_a_source(path) {
+        let why = "this is a ladder or a spec, and is left as it is";
+        io.complain(&format!("{name}: {why}"));
+        return Ok(Status::Usage);
+    }
+    match file::replace(path, text.as_bytes()) {
+        Ok(()) => {
+            io.aside(&format!("{name}: written\n"))?;
+            Ok(status)
+        }
+        Err(error) => {
+            io.complain(&format!("{name}: cannot be written: {error}"));
+            Ok(Status::Usage)
+        }
+    }
+}
+
+/// The grafcet of the spec at `path`, and how a command ends that has made
+/// something of it. `None` if there is none; the user has been told why.
+fn read(path: &Path, io: &mut Io) -> std::io::Result<Option<(Grafcet, Status)>> {
+    let name = printable(&input::name(path));
+    let bytes = match io.read(path) {
+        Ok(bytes) => bytes,
+        Err(reason) => {
+            let paint = io.aside_paint();
+            io.aside(&report::unreadable(path, &reason.diagnostic(), paint))?;
+            return Ok(None);
+        }
+    };
+    let language::File::Spec(text) = language::of(&bytes) else {
+        let why = "this is no spec; `gradus convert` makes one of a ladder";
+        io.complain(&format!("{name}: {why}"));
+        return Ok(None);
+    };
+    let reading = grafcet::read(text);
+    let is_error = |found: &&Diagnostic| found.severity == Severity::Error;
+    let errors = reading.diagnostics.iter().filter(is_error).count();
+    let status = if errors > 0 {
+        let word = io.aside_paint().severity(Severity::Warning, "warning");
+        let errors = numbered(errors, "error");
+        io.aside(&format!(
+            "{word}: {name}: {errors} in the text; `gradus check {name}` shows what was left out\n"
+        ))?;
+        Status::ProblemsFound
+    } else {
+        Status::Done
+    };
+    Ok(Some((reading.spec.grafcet, status)))
+}
+
+/// Whether the file at `path` holds a ladder or a spec, which nothing brings
+/// back.
+fn holds_a_source(path: &Path) -> bool {
+    let Ok(bytes) = file::read(path) else {
+        return false;
+    };
+    match language::of(&bytes) {
+        language::File::Spec(_) => true,
+        language::File::Ladder(bytes) => ladder::read(bytes).program.format != Format::Unknown,
+    }
+}

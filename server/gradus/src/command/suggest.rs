@@ -1,0 +1,145 @@
+//! `gradus suggest`: which state may follow which, best first.
+
+use std::io::Write;
+use std::path::PathBuf;
+
+use clap::ValueEnum;
+use logic::Name;
+use recovery::Analysis;
+use recovery::successions::{self, Succession};
+
+use crate::io::Io;
+use crate::program;
+use crate::status::Status;
+
+mod json;
+mod text;
+
+const DETAILS: &str = "\
+What a suggestion rests on, strongest first:
+
+  written    an arc of a step register, read off a write; exact
+  handover   what ends the one state is what starts the other
+  possible   what ends the one and what starts the other share a variable and can
+             hold together
+
+A follower is of kind `and` when it starts together with others, for the same
+cause and without locking them out; of kind `or` when it starts instead of them.
+The condition says when the one ends and the other begins.
+
+Methods:
+  ranked     states only, best first
+  possible   every coil with every other, by the last of the rules above
+  cubes      the rule of the published method, literally, for comparison: it
+             depends on the order of variables and its time doubles with every
+             variable that two conditions share
+
+JSON:
+  {\"states\": [], \"suggestions\": [{\"from\", \"to\", \"evidence\", \"kind\", \"condition\",
+    \"witness\": []}], \"sequence\", \"reason\",
+    \"groups\": [{\"states\": [], \"sequence\", \"reason\", \"modes\": [[]]}]}
+  `states` are the coils and register values that took part. `evidence` is
+  written, handover or possible; `kind` is and or or. `condition` is null past
+  the budget and for cubes. `witness` is empty: no input sequences are searched
+  for. A group is a set of rungs that depend on each other; `modes` are sets of
+  states that replace each other in any order, such as opened and closed.
+
+Exit status: 0 also where there is no sequence: that is an answer. 1 if the text
+of the ladder has errors.
+
+Examples:
+  gradus suggest line3.L5X
+  gradus suggest --method cubes --json tank.ladder | jq '.suggestions | length'";
+
+/// Suggest which state follows which, best first.
+#[derive(Debug, clap::Args)]
+#[command(after_long_help = DETAILS)]
+pub struct Args {
+    /// The ladder; `-` is standard input.
+    #[arg(value_name = "FILE")]
+    file: PathBuf,
+
+    /// How to look for suggestions.
+    #[arg(long, default_value = "ranked")]
+    method: Method,
+
+    /// Answer in JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Method {
+    /// By the evidence for it; states only.
+    Ranked,
+    /// Whatever can be; every coil takes part.
+    Possible,
+    /// The published rule; every coil takes part.
+    Cubes,
+}
+
+/// What was found, by whatever method.
+struct Found<'a> {
+    states: Vec<Name>,
+    suggestions: Vec<Succession>,
+    analysis: &'a Analysis<'a>,
+}
+
+/// Answers which state may follow which.
+pub fn run(args: &Args, io: &mut Io) -> std::io::Result<Status> {
+    let Some(ladder) = program::read(&args.file, io)? else {
+        return Ok(Status::Usage);
+    };
+    let budget = program::budget(io);
+    let Some(analysis) = program::analyse(&ladder, &budget) else {
+        return Ok(Status::Interrupted);
+    };
+    let found = {
+        let _progress = program::progress("Comparing", &ladder);
+        let conditions = &analysis.conditions;
+        let (states, suggestions) = match args.method {
+            Method::Ranked => (states(&analysis), analysis.successions.clone()),
+            Method::Possible => (coils(&analysis), successions::possible(conditions, &budget)),
+            Method::Cubes => (coils(&analysis), successions::cubes(conditions, &budget)),
+        };
+        Found {
+            states,
+            suggestions,
+            analysis: &analysis,
+        }
+    };
+    if budget.cancel.is_cancelled() {
+        return Ok(Status::Interrupted);
+    }
+    if args.json {
+        writeln!(io.answer(), "{:#}", json::json(&found, &budget))?;
+        return Ok(ladder.status());
+    }
+    let paint = io.answer_paint();
+    let text = match args.method {
+        Method::Ranked => text::by_group(&found, &budget, paint),
+        Method::Possible | Method::Cubes => text::by_coil(&found, &budget, paint),
+    };
+    io.answer().write_all(text.as_bytes())?;
+    Ok(ladder.status())
+}
+
+/// The states, those of registers last.
+fn states(analysis: &Analysis<'_>) -> Vec<Name> {
+    let bits = analysis
+        .states
+        .states
+        .iter()
+        .map(|state| state.name.clone());
+    let values = analysis.registers.iter().flat_map(|register| {
+        let values = register.states.iter();
+        values.map(|state| register.state_name(state.value))
+    });
+    bits.chain(values).collect()
+}
+
+/// Every coil: the published method lets all rungs take part.
+fn coils(analysis: &Analysis<'_>) -> Vec<Name> {
+    let variables = analysis.conditions.variables.iter();
+    variables.map(|variable| variable.name.clone()).collect()
+}

@@ -1,0 +1,121 @@
+//! The ladder that a command is about.
+//!
+//! A command that reads one ladder says the same about it whatever it then
+//! does: why the file cannot be read, that it is something else, that parts of
+//! it were not understood. The answer is given all the same wherever there is
+//! a program at all; how many errors its text has is said beside it, and
+//! counts in the exit status.
+
+use std::path::{Path, PathBuf};
+
+use ladder::{Format, Program};
+use logic::{Budget, Name};
+use recovery::Analysis;
+use source::Severity;
+
+use crate::colour::Paint;
+use crate::input::{self, numbered};
+use crate::io::Io;
+use crate::language;
+use crate::progress::Progress;
+use crate::report::{self, Findings, printable};
+use crate::status::Status;
+
+/// A ladder as it was read.
+pub struct Ladder {
+    /// Where it came from, or `-`.
+    pub path: PathBuf,
+    /// What was understood of it.
+    pub program: Program,
+    /// Errors in its text.
+    errors: usize,
+}
+
+impl Ladder {
+    /// How answers name its file.
+    pub fn name(&self) -> String {
+        input::name(&self.path)
+    }
+
+    /// How a command ends that has answered about it.
+    pub fn status(&self) -> Status {
+        if self.errors > 0 {
+            Status::ProblemsFound
+        } else {
+            Status::Done
+        }
+    }
+}
+
+/// Reads the ladder at `path`. `None` if there is none; the user has been told
+/// why, and the command ends with [`Status::Usage`].
+pub fn read(path: &Path, io: &mut Io) -> std::io::Result<Option<Ladder>> {
+    let paint = io.aside_paint();
+    let bytes = match io.read(path) {
+        Ok(bytes) => bytes,
+        Err(reason) => {
+            io.aside(&report::unreadable(path, &reason.diagnostic(), paint))?;
+            return Ok(None);
+        }
+    };
+    let name = printable(&input::name(path));
+    if let language::File::Spec(_) = language::of(&bytes) {
+        io.complain(&format!("{name}: this is a spec, and a ladder is needed"));
+        return Ok(None);
+    }
+    let reading = ladder::read(&bytes);
+    if reading.program.format == Format::Unknown {
+        let findings = Findings::new(path.to_owned(), bytes, reading.diagnostics);
+        io.aside(&report::text(&findings, paint))?;
+        return Ok(None);
+    }
+    let is_error = |found: &&source::Diagnostic| found.severity == Severity::Error;
+    let errors = reading.diagnostics.iter().filter(is_error).count();
+    if errors > 0 {
+        io.aside(&trouble(&name, errors, paint))?;
+    }
+    Ok(Some(Ladder {
+        path: path.to_owned(),
+        program: reading.program,
+        errors,
+    }))
+}
+
+fn trouble(name: &str, errors: usize, paint: Paint) -> String {
+    let word = paint.severity(Severity::Warning, "warning");
+    let errors = numbered(errors, "error");
+    format!("{word}: {name}: {errors} in the text; `gradus check {name}` shows what was left out\n")
+}
+
+/// All that is recovered from `ladder`; `None` if somebody pressed Ctrl-C.
+pub fn analyse<'l>(ladder: &'l Ladder, budget: &Budget) -> Option<Analysis<'l>> {
+    let _progress = progress("Analysing", ladder);
+    let analysis = recovery::analyse(&ladder.program, budget);
+    (!budget.cancel.is_cancelled()).then_some(analysis)
+}
+
+/// The usual budget, which ends when Ctrl-C is pressed.
+pub fn budget(io: &Io) -> Budget {
+    Budget {
+        cancel: io.cancel().clone(),
+        ..Budget::default()
+    }
+}
+
+/// A line that moves while something is done to `ladder`.
+pub fn progress(activity: &'static str, ladder: &Ladder) -> Progress {
+    Progress::of_one(activity, &printable(&ladder.name()))
+}
+
+/// What the comments of the ladder say about a state, which may be a value of
+/// a register.
+pub fn description(analysis: &Analysis<'_>, state: &str) -> Option<Name> {
+    let title = || {
+        analysis.registers.iter().find_map(|register| {
+            let mut values = register.states.iter();
+            let found = values.find(|it| *register.state_name(it.value) == *state);
+            found.and_then(|it| it.title.clone())
+        })
+    };
+    analysis.description(state).or_else(title)
+}
