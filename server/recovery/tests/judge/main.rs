@@ -8,6 +8,7 @@
 mod guards;
 mod networks;
 mod next_values;
+mod paper;
 mod programs;
 mod rungs;
 mod valuations;
