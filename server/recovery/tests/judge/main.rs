@@ -5,6 +5,7 @@
 //! controller, successions by tables and by charts that the files themselves
 //! hold.
 
+mod coded_chart;
 mod guards;
 mod networks;
 mod next_values;
