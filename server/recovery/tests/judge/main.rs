@@ -6,10 +6,12 @@
 //! hold.
 
 mod coded_chart;
+mod corpus_page;
 mod guards;
 mod networks;
 mod next_values;
 mod paper;
 mod programs;
+mod real_files;
 mod rungs;
 mod valuations;

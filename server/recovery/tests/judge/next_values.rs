@@ -65,7 +65,7 @@ fn up_to(program: &Program, at: usize) -> Program {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(200))]
+    #![proptest_config(ProptestConfig::with_cases(150))]
 
     #[test]
     fn where_contacts_see_what_was_before_the_scan_it_holds_for_the_whole_program(
