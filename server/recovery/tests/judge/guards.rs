@@ -10,7 +10,7 @@ use crate::valuations::judge;
 const SAMPLES: usize = 300;
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(1_500))]
+    #![proptest_config(ProptestConfig::with_cases(1_000))]
 
     #[test]
     fn power_through_drawn_networks_is_what_an_interpreter_finds(network in drawn()) {

@@ -5,7 +5,13 @@
 //! controller, successions by tables and by charts that the files themselves
 //! hold.
 
+mod coded_chart;
+mod corpus_page;
 mod guards;
 mod networks;
+mod next_values;
+mod paper;
+mod programs;
+mod real_files;
 mod rungs;
 mod valuations;
