@@ -416,6 +416,15 @@ fn variables_begin_at_their_declared_values_and_keep_their_types() {
 }
 
 #[test]
+fn a_box_that_decides_about_power_passes_none_on_that_it_does_not_get() {
+    check(
+        "XIC(a) WITHIN(0,x,9) OTE(q)",
+        ". a . WITHIN(0,x,9) . /a .",
+        &[("q", "0 0 1 0")],
+    );
+}
+
+#[test]
 fn what_cannot_be_computed_is_an_input_and_listed() {
     let program = rungs("PID(x) OTE(q)\nCPT(n,FOO(a))\nGRT(n,BAR[) OTE(r)\nTON(T)");
     let mut machine = Machine::new(&program);

@@ -290,8 +290,9 @@ pub struct Block {
     pub pins: Vec<Pin>,
     /// How well it is known.
     pub familiarity: Familiarity,
-    /// Whether it decides itself what power it passes on: then that is the
-    /// atom `instance.ENO` or, without an instance, one of its own.
+    /// Whether it decides itself if it passes on the power that it gets: then
+    /// it conducts while the atom `instance.ENO` is on, or, without an
+    /// instance, one of its own. Without power it passes on none.
     pub shapes_power: bool,
 }
 

@@ -28,7 +28,7 @@ fn is_output(pin: &str) -> bool {
     matches!(pin, "" | "Q" | "DN")
 }
 
-/// The atom that says what power a box passes on which decides so itself:
+/// The atom that says whether a box passes power on which decides so itself:
 /// `instance.ENO`, or without an instance its name and inputs, `LIM(0,x,9)`.
 /// Where an input comes by wire the place is added, since two such boxes need
 /// not agree.

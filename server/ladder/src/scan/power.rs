@@ -27,7 +27,7 @@ pub(super) trait Circuit {
     fn sees_edge(&mut self, wire: EdgeIndex, edge: Edge, signal: bool) -> bool;
     /// The value at an output pin of a box that has been solved.
     fn at_pin(&mut self, at: NodeIndex, pin: &str) -> bool;
-    /// What a box passes on that decides so itself.
+    /// Whether a box that decides so itself passes on the power that it gets.
     fn shapes(&mut self, at: NodeIndex) -> bool;
     /// Lets the element do what it does besides passing power.
     fn act(&mut self, at: NodeIndex, element: &Element, power: bool, inputs: &Inputs<'_>);
@@ -117,7 +117,7 @@ impl<'n> Flow<'n> {
             }
             ElementKind::OneShot(shot) => circuit.fires(at, shot, arriving),
             ElementKind::Gate(gate) => joined(*gate, &self.inputs),
-            ElementKind::Block(block) if block.shapes_power => circuit.shapes(at),
+            ElementKind::Block(block) if block.shapes_power => circuit.shapes(at) && arriving,
             _ => arriving,
         };
     }

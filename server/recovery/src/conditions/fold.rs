@@ -113,8 +113,8 @@ fn apply(
     };
     match kind {
         // In an unpowered zone power never arrives, so that a negated coil
-        // is written 0 there, not 1.
-        WriteKind::Coil(CoilKind::Negated) => zone.and_not(guard, budget),
+        // is written 1 there.
+        WriteKind::Coil(CoilKind::Negated) => Ok(guard.and(zone, budget)?.not()),
         // The edge of the power is an atom that `collect` put in the guard.
         WriteKind::Coil(CoilKind::Plain | CoilKind::Rising | CoilKind::Falling) => {
             guard.and(zone, budget)

@@ -1,9 +1,10 @@
 //! From a network to the conditions under which each element gets power.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashSet;
 
+use ladder::scan::{own_atom, pin_atom};
 use ladder::{
-    Block, ContactKind, Edge, ElementKind, Familiarity, Gate, Network, OneShot, Port, Wire,
+    ContactKind, CounterKind, Edge, ElementKind, Familiarity, Gate, Network, OneShot, Port, Wire,
 };
 use logic::{Atom, AtomId, Atoms, Budget, Expr, Function, Name, Stop};
 use petgraph::graph::NodeIndex;
@@ -11,27 +12,32 @@ use petgraph::graph::NodeIndex;
 /// The conditions of one network, element by element.
 #[derive(Clone, Debug)]
 pub struct Powers {
-    /// Power arriving at each element's power port, by the element's place.
+    /// Power arriving at each element, by the element's place.
     arriving: Vec<Result<Function, Stop>>,
-    /// Power arriving at named pins.
-    pins: HashMap<(NodeIndex, Name), Result<Function, Stop>>,
+    /// Power passed on by each element, by the element's place.
+    passing: Vec<Result<Function, Stop>>,
 }
 
 impl Powers {
-    /// The condition under which power arrives at the element.
+    /// The condition under which power arrives at the element: at a contact's
+    /// left end, at a box's `EN`, at a timer's `IN`, at a counter's counting
+    /// input.
     pub fn at(&self, element: NodeIndex) -> Result<&Function, Stop> {
-        match self.arriving.get(element.index()) {
-            Some(Ok(function)) => Ok(function),
-            Some(Err(stop)) => Err(*stop),
-            None => Err(Stop::TooLarge),
-        }
+        condition(&self.arriving, element)
     }
 
-    /// The condition under which power arrives at a named pin, if a wire
-    /// leads there.
-    pub fn at_pin(&self, element: NodeIndex, pin: &str) -> Option<Result<&Function, Stop>> {
-        let power = self.pins.get(&(element, pin.into()))?;
-        Some(power.as_ref().map_err(|stop| *stop))
+    /// The condition under which the element passes power on, not at a named
+    /// pin.
+    pub fn after(&self, element: NodeIndex) -> Result<&Function, Stop> {
+        condition(&self.passing, element)
+    }
+}
+
+fn condition(conditions: &[Result<Function, Stop>], element: NodeIndex) -> Result<&Function, Stop> {
+    match conditions.get(element.index()) {
+        Some(Ok(function)) => Ok(function),
+        Some(Err(stop)) => Err(*stop),
+        None => Err(Stop::TooLarge),
     }
 }
 
@@ -46,39 +52,69 @@ pub struct Walk<'w> {
     pub budget: &'w Budget,
 }
 
+/// Power at one port of an element.
+type Input<'n> = (&'n Port, Result<Function, Stop>);
+
 /// The powers of `network`, in one pass over its elements: a port is on when
 /// any of its wires is, an element hands on what its kind makes of that.
 pub fn powers(network: &Network, walk: &mut Walk<'_>) -> Powers {
     let mut powers = Powers {
         arriving: Vec::with_capacity(network.len()),
-        pins: HashMap::new(),
+        passing: Vec::with_capacity(network.len()),
     };
-    // What leaves each element by its power port.
-    let mut leaving: Vec<Result<Function, Stop>> = Vec::with_capacity(network.len());
     for (at, element) in network.elements() {
-        let mut ports: Vec<(&Port, Result<Function, Stop>)> = vec![];
+        let mut inputs: Vec<Input<'_>> = vec![];
         for (from, wire) in network.arriving(at) {
-            let carried = carried(network, from, wire, &leaving, walk);
-            match ports.iter_mut().find(|(port, _)| *port == &wire.to) {
+            let carried = carried(network, from, wire, &powers, walk);
+            match inputs.iter_mut().find(|(port, _)| *port == &wire.to) {
                 Some((_, sum)) => *sum = joined(sum, &carried, walk.budget),
-                None => ports.push((&wire.to, carried)),
+                None => inputs.push((&wire.to, carried)),
             }
         }
-        let mut power = Ok(Function::constant(false));
-        let mut inputs = Vec::new();
-        for (port, carried) in ports {
-            inputs.push(carried.clone());
-            match port {
-                Port::Power => power = carried,
-                Port::Pin(pin) => {
-                    powers.pins.insert((at, pin.clone()), carried);
-                }
-            }
-        }
-        leaving.push(passed(&element.kind, at, &power, &inputs, walk));
+        let power = arriving(&element.kind, &inputs, walk.budget);
+        let passing = passed(network, at, &power, &inputs, walk);
         powers.arriving.push(power);
+        powers.passing.push(passing);
     }
     powers
+}
+
+/// The power that arrives at an element, of all that does at its ports. A
+/// timer or counter may be wired at its own input pin; then `EN`, where wired,
+/// enables it.
+fn arriving(kind: &ElementKind, inputs: &[Input<'_>], budget: &Budget) -> Result<Function, Stop> {
+    let own_pin = match kind {
+        ElementKind::Rail => return Ok(Function::constant(true)),
+        ElementKind::Timer(_) => "IN",
+        ElementKind::Counter(counter) if counter.kind == CounterKind::Down => "CD",
+        ElementKind::Counter(_) => "CU",
+        ElementKind::Block(_) => "EN",
+        _ => return at_ports(inputs, |_| true, budget).unwrap_or(Ok(Function::constant(false))),
+    };
+    let is_own = |port: &Port| match port {
+        Port::Power => false,
+        Port::Pin(pin) => pin.eq_ignore_ascii_case(own_pin),
+    };
+    let power = at_ports(inputs, |port| *port == Port::Power, budget);
+    match (at_ports(inputs, is_own, budget), power) {
+        (Some(signal), Some(power)) => signal?.and(&power?, budget),
+        (Some(signal), None) => signal,
+        (None, Some(power)) => power,
+        (None, None) => Ok(Function::constant(false)),
+    }
+}
+
+/// The power at any of the wanted ports, if wires lead there.
+fn at_ports(
+    inputs: &[Input<'_>],
+    is_wanted: impl Fn(&Port) -> bool,
+    budget: &Budget,
+) -> Option<Result<Function, Stop>> {
+    inputs
+        .iter()
+        .filter(|(port, _)| is_wanted(port))
+        .map(|(_, input)| input.clone())
+        .reduce(|any, input| joined(&any, &input, budget))
 }
 
 fn joined(
@@ -89,43 +125,37 @@ fn joined(
     a.clone()?.or(&b.clone()?, budget)
 }
 
-/// What a wire carries from the element it leaves.
+/// What a wire carries from the element it leaves: the complement first, then
+/// the edge of that.
 fn carried(
     network: &Network,
     from: NodeIndex,
     wire: &Wire,
-    leaving: &[Result<Function, Stop>],
+    powers: &Powers,
     walk: &mut Walk<'_>,
 ) -> Result<Function, Stop> {
     let power = match &wire.from {
-        Port::Power => leaving
-            .get(from.index())
-            .cloned()
-            .unwrap_or(Err(Stop::TooLarge)),
-        Port::Pin(pin) => Ok(output_pin(&network.element(from).kind, from, pin, walk)),
+        Port::Power => powers.after(from)?.clone(),
+        Port::Pin(pin) => output(network, from, &pin_atom(network, from, pin), walk),
     };
-    let power = match wire.edge {
-        None => power,
-        Some(edge) => power.and_then(|power| edge_of(&power, edge, walk)),
-    };
-    if wire.negated {
-        power.map(|power| power.not())
-    } else {
-        power
+    let power = if wire.negated { power.not() } else { power };
+    match wire.edge {
+        None => Ok(power),
+        Some(edge) => edge_of(&power, edge, walk),
     }
 }
 
 /// What leaves an element by its power port.
 fn passed(
-    kind: &ElementKind,
+    network: &Network,
     at: NodeIndex,
     power: &Result<Function, Stop>,
-    inputs: &[Result<Function, Stop>],
+    inputs: &[Input<'_>],
     walk: &mut Walk<'_>,
 ) -> Result<Function, Stop> {
     let through =
         |condition: Function, walk: &Walk<'_>| power.clone()?.and(&condition, walk.budget);
-    match kind {
+    match &network.element(at).kind {
         ElementKind::Rail => Ok(Function::constant(true)),
         ElementKind::Contact(contact) => {
             let variable = Expr::variable(contact.operand.name.clone());
@@ -151,70 +181,35 @@ fn passed(
         ElementKind::OneShot(OneShot { edge, .. }) => edge_of(&power.clone()?, *edge, walk),
         ElementKind::Gate(gate) => gate_of(*gate, inputs, walk.budget),
         ElementKind::Block(block) if block.shapes_power => {
-            let condition = output_pin(kind, at, "ENO", walk);
+            let condition = output(network, at, &own_atom(network, at), walk);
             through(condition, walk)
         }
         _ => power.clone(),
     }
 }
 
-fn gate_of(
-    gate: Gate,
-    inputs: &[Result<Function, Stop>],
-    budget: &Budget,
-) -> Result<Function, Stop> {
-    let start = Function::constant(gate == Gate::And);
-    inputs.iter().try_fold(start, |sum, input| {
-        let input = input.clone()?;
+/// What a gate makes of its ports; without any it gives nothing.
+fn gate_of(gate: Gate, inputs: &[Input<'_>], budget: &Budget) -> Result<Function, Stop> {
+    let start = Function::constant(gate == Gate::And && !inputs.is_empty());
+    inputs.iter().try_fold(start, |sum, (_, input)| {
+        let input = input.as_ref().map_err(|stop| *stop)?;
         match gate {
-            Gate::And => sum.and(&input, budget),
-            Gate::Or => sum.or(&input, budget),
-            Gate::Xor => sum.xor(&input, budget),
+            Gate::And => sum.and(input, budget),
+            Gate::Or => sum.or(input, budget),
+            Gate::Xor => sum.xor(input, budget),
         }
     })
 }
 
-/// The condition of a Boolean output pin: the atom `instance.pin`.
-fn output_pin(kind: &ElementKind, at: NodeIndex, pin: &str, walk: &mut Walk<'_>) -> Function {
-    match kind {
-        ElementKind::Timer(timer) if matches!(pin, "Q" | "DN") => variable_of(&timer.output, walk),
-        ElementKind::Counter(counter) if matches!(pin, "Q" | "DN") => {
-            variable_of(&counter.output, walk)
-        }
-        ElementKind::Timer(timer) => {
-            variable_of(&format!("{}.{pin}", timer.instance.name).into(), walk)
-        }
-        ElementKind::Counter(counter) => {
-            variable_of(&format!("{}.{pin}", counter.instance.name).into(), walk)
-        }
-        ElementKind::Block(block) => {
-            let name = block_atom(block, at, pin);
-            let id = walk.atoms.add_variable(&name);
-            if block.familiarity == Familiarity::Unknown {
-                walk.opaque.insert(id);
-            }
-            Function::atom(id)
-        }
-        _ => Function::constant(false),
+/// What a box says at an output: an atom, opaque if nobody knows the box.
+fn output(network: &Network, at: NodeIndex, name: &Name, walk: &mut Walk<'_>) -> Function {
+    let id = walk.atoms.add_variable(name);
+    if let ElementKind::Block(block) = &network.element(at).kind
+        && block.familiarity == Familiarity::Unknown
+    {
+        walk.opaque.insert(id);
     }
-}
-
-/// The name of the atom that a block's output pin is: of its instance, or,
-/// for a block without one, its text, which is the same for the same operands.
-fn block_atom(block: &Block, at: NodeIndex, pin: &str) -> Name {
-    if let Some(instance) = &block.instance {
-        return format!("{}.{pin}", instance.name).into();
-    }
-    let operands: Vec<&str> = block
-        .pins
-        .iter()
-        .filter_map(|pin| pin.operand.as_ref())
-        .map(|operand| &*operand.name)
-        .collect();
-    if operands.is_empty() {
-        return format!("{}#{}.{pin}", block.name, at.index()).into();
-    }
-    format!("{}({})", block.name, operands.join(",")).into()
+    Function::atom(id)
 }
 
 /// Power for the one scan in which `power` rises or falls. The edge is an
@@ -229,10 +224,10 @@ pub(super) fn edge_of(power: &Function, edge: Edge, walk: &mut Walk<'_>) -> Resu
 }
 
 fn variable_of(name: &Name, walk: &mut Walk<'_>) -> Function {
-    // `0`, `1`, TRUE and FALSE stand at contacts of some exporters.
-    match &**name {
-        "1" | "TRUE" | "true" => Function::constant(true),
-        "0" | "FALSE" | "false" => Function::constant(false),
+    // Constants stand at contacts of some exporters.
+    match &*name.to_ascii_lowercase() {
+        "1" | "true" => Function::constant(true),
+        "0" | "false" => Function::constant(false),
         _ => Function::atom(walk.atoms.add_variable(name)),
     }
 }

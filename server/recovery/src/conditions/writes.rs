@@ -142,6 +142,27 @@ impl Circumstances {
     }
 }
 
+/// A rung while it is solved, in one stretch or several.
+struct Solving<'p> {
+    /// The routine, and the rung in it.
+    place: (usize, usize),
+    rung: &'p Rung,
+    powers: Powers,
+    /// The element that last wrote a variable, so far.
+    written: HashMap<AtomId, usize>,
+}
+
+impl<'p> Solving<'p> {
+    fn new(place: (usize, usize), rung: &'p Rung, walk: &mut Walk<'_>) -> Self {
+        Self {
+            place,
+            rung,
+            powers: powers(&rung.network, walk),
+            written: HashMap::new(),
+        }
+    }
+}
+
 struct Collector<'p> {
     program: &'p Program,
     events: Vec<Event>,
@@ -153,44 +174,33 @@ impl Collector<'_> {
         // Power at the calls, jumps, returns and zones of earlier visits.
         let mut steering: HashMap<(usize, NodeIndex), Result<Function, Stop>> = HashMap::new();
         let mut known = HashMap::from([(flow::GuardSet::NONE, Circumstances::always())]);
-        let mut last: Option<((usize, usize), Powers)> = None;
+        let mut solving: Option<Solving<'_>> = None;
         for (at, visit) in order.visits.iter().enumerate() {
             if walk.budget.cancel.is_cancelled() {
                 return;
             }
-            let Some(rung) = self
-                .program
-                .routines
-                .get(visit.routine)
-                .and_then(|routine| routine.rungs.get(visit.rung))
-            else {
+            let routine = self.program.routines.get(visit.routine);
+            let Some(rung) = routine.and_then(|routine| routine.rungs.get(visit.rung)) else {
                 continue;
             };
             let circumstances = circumstances(order, visit.guards, &steering, &mut known, walk);
             let here = (visit.routine, visit.rung);
-            if last.as_ref().is_none_or(|(rung, _)| *rung != here) {
-                last = Some((here, powers(&rung.network, walk)));
-            }
-            let Some((_, powers)) = &last else { continue };
+            let solving = match &mut solving {
+                Some(solving) if solving.place == here && visit.elements.start > 0 => solving,
+                other => other.insert(Solving::new(here, rung, walk)),
+            };
             for element in visit.elements.clone().map(NodeIndex::new) {
                 if element.index() >= rung.network.len() {
                     break;
                 }
-                if steers(&rung.network.element(element).kind) {
-                    let power = powers.at(element).cloned();
-                    let there =
-                        conjoined(&[&power, &circumstances.solved, &circumstances.zone], walk);
+                let kind = &rung.network.element(element).kind;
+                if steers(kind) {
+                    let power = solving.powers.at(element).cloned();
+                    let there = steered(kind, &power, &circumstances, walk);
                     steering.insert((at, element), there);
                 }
             }
-            self.visit(
-                here,
-                rung,
-                visit.elements.clone(),
-                powers,
-                &circumstances,
-                walk,
-            );
+            self.visit(solving, visit.elements.clone(), &circumstances, walk);
         }
     }
 
@@ -201,22 +211,21 @@ impl Collector<'_> {
             zone: Ok(Function::constant(true)),
         };
         for (at, rung) in self.program.routines[routine].rungs.iter().enumerate() {
-            let powers = powers(&rung.network, walk);
+            let mut solving = Solving::new((routine, at), rung, walk);
             let all = 0..rung.network.len();
-            self.visit((routine, at), rung, all, &powers, &circumstances, walk);
+            self.visit(&mut solving, all, &circumstances, walk);
         }
     }
 
     fn visit(
         &mut self,
-        (routine, at): (usize, usize),
-        rung: &Rung,
+        solving: &mut Solving<'_>,
         elements: std::ops::Range<usize>,
-        powers: &Powers,
         circumstances: &Circumstances,
         walk: &mut Walk<'_>,
     ) {
-        let mut written: HashMap<AtomId, usize> = HashMap::new();
+        let (routine, at) = solving.place;
+        let Solving { rung, powers, .. } = solving;
         for element in elements.map(NodeIndex::new) {
             if element.index() >= rung.network.len() {
                 break;
@@ -226,7 +235,7 @@ impl Collector<'_> {
                 let upstream = upstream(&rung.network, element, &effect, walk);
                 let earlier = upstream
                     .target
-                    .and_then(|target| written.insert(target, element.index()));
+                    .and_then(|target| solving.written.insert(target, element.index()));
                 let sees_earlier = earlier.is_some_and(|write| {
                     upstream
                         .first_contact
@@ -262,10 +271,7 @@ impl Collector<'_> {
         let ElementKind::Timer(timer) = kind else {
             return;
         };
-        let input = match powers.at_pin(element, "IN") {
-            Some(input) => input.cloned(),
-            None => powers.at(element).cloned(),
-        };
+        let input = powers.at(element).cloned();
         let input = conjoined(&[&input, &circumstances.zone], walk);
         let output = walk.atoms.add_variable(&timer.output);
         let law = TimerLaw {
@@ -292,6 +298,23 @@ fn steers(kind: &ElementKind) -> bool {
             | ElementKind::Return { .. }
             | ElementKind::Zone
     )
+}
+
+/// The condition under which an element that gets `power` calls, jumps or
+/// leaves, or the zone that it begins is switched on. A jump that is not solved
+/// does not jump; a zone whose begin is not solved is on.
+fn steered(
+    kind: &ElementKind,
+    power: &Result<Function, Stop>,
+    circumstances: &Circumstances,
+    walk: &Walk<'_>,
+) -> Result<Function, Stop> {
+    let solved = &circumstances.solved;
+    if *kind != ElementKind::Zone {
+        return conjoined(&[power, solved, &circumstances.zone], walk);
+    }
+    let power = conjoined(&[power, &circumstances.zone], walk)?;
+    power.or(&solved.clone()?.not(), walk.budget)
 }
 
 fn conjoined(parts: &[&Result<Function, Stop>], walk: &Walk<'_>) -> Result<Function, Stop> {

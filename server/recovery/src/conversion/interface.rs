@@ -34,7 +34,11 @@ pub(super) fn declare(analysis: &Analysis<'_>, grafcet: &mut Grafcet) {
             .declarations
             .find(name)
             .and_then(|declaration| declaration.address.clone()),
-        comment: analysis.description(name),
+        comment: if analysis.conditions.atoms.find_variable(name).is_some() {
+            analysis.description(name)
+        } else {
+            Some("too large to be written out".into())
+        },
     };
     let mut places: BTreeMap<Name, usize> = BTreeMap::new();
     for (id, atom) in analysis.conditions.atoms.iter() {

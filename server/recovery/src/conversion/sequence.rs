@@ -551,7 +551,7 @@ impl<'b> Builder<'b> {
                 continue;
             }
             let wait = self.wait(
-                &format!("D{}", follower.name),
+                &format!("W{}", follower.name),
                 format!("waits for {} to start", follower.name),
             );
             entries.push(wait.clone());

@@ -12,7 +12,7 @@ use crate::registers::Register;
 /// Which steps stand for which states, and how to say conditions over them.
 pub(super) struct Wording<'a> {
     analysis: &'a Analysis<'a>,
-    budget: &'a Budget,
+    budget: Budget,
     /// Steps of a state held in one bit; several where it is reached in
     /// different ways.
     steps: HashMap<AtomId, Vec<Name>>,
@@ -20,11 +20,18 @@ pub(super) struct Wording<'a> {
     values: HashMap<Name, Vec<(i64, Name)>>,
 }
 
+/// A receptivity of more products than this is not written out: nobody could
+/// read it, and a spec is there to be read.
+const MOST_PRODUCTS: usize = 48;
+
 impl<'a> Wording<'a> {
-    pub(super) fn new(analysis: &'a Analysis<'a>, budget: &'a Budget) -> Self {
+    pub(super) fn new(analysis: &'a Analysis<'a>, budget: &Budget) -> Self {
         Self {
             analysis,
-            budget,
+            budget: Budget {
+                products: budget.products.min(MOST_PRODUCTS),
+                ..budget.clone()
+            },
             steps: HashMap::new(),
             values: HashMap::new(),
         }
@@ -58,7 +65,7 @@ impl<'a> Wording<'a> {
         let next = variable.next.as_ref().ok()?;
         let conditions = &self.analysis.conditions;
         let auxiliaries = &self.analysis.states.auxiliaries;
-        Some(auxiliaries.resolve(next, conditions, self.budget))
+        Some(auxiliaries.resolve(next, conditions, &self.budget))
     }
 
     /// `function` as a receptivity or condition; `None` past the budget.
@@ -81,14 +88,14 @@ impl<'a> Wording<'a> {
                 Some(id) => Function::atom(id),
                 None => Function::constant(true),
             };
-            let rising = Function::build(inner, &mut leaf, self.budget).ok()?;
-            care = care.and(&rising, self.budget).ok()?;
+            let rising = Function::build(inner, &mut leaf, &self.budget).ok()?;
+            care = care.and(&rising, &self.budget).ok()?;
             rest = rest.restrict(atom, true);
             edges.push(Expr::Atom(atoms.atom(atom).clone()));
         }
-        let lower = rest.and(&care, self.budget).ok()?;
-        let upper = rest.or(&care.not(), self.budget).ok()?;
-        let expr = lower.to_expr_within(&upper, atoms, self.budget).ok()?;
+        let lower = rest.and(&care, &self.budget).ok()?;
+        let upper = rest.or(&care.not(), &self.budget).ok()?;
+        let expr = lower.to_expr_within(&upper, atoms, &self.budget).ok()?;
         if edges.is_empty() {
             return Some(self.in_steps(&expr));
         }

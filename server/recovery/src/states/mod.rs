@@ -51,7 +51,18 @@ pub struct State {
     pub interlocks: Vec<AtomId>,
 }
 
+/// A state whose condition has more nodes than this is compared with no
+/// other: with a condition of that size, which no person can read, every pair
+/// would cost as much as all the rest of the program.
+const LARGEST_COMPARED: usize = 500;
+
 impl State {
+    /// Whether the state's conditions are small enough to be compared with
+    /// those of others, pair by pair.
+    pub fn is_comparable(&self) -> bool {
+        self.plain.nodes().max(self.next.nodes()) <= LARGEST_COMPARED
+    }
+
     /// What starts it, as its rungs have it.
     pub fn plain_turns_on(&self) -> Function {
         self.plain.restrict(self.atom, false)

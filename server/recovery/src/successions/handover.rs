@@ -40,11 +40,6 @@ impl Form {
     }
 }
 
-/// A state whose condition has more nodes than this is compared with no
-/// other: with a condition of that size, which no person can read, every pair
-/// would cost as much as all the rest of the program.
-const LARGEST: usize = 2_000;
-
 /// All handovers between states. The plain form of their conditions is tried
 /// first: in it a chain with transition bits shows which bit ends the one and
 /// starts the other. Only where that finds nothing are the bits resolved.
@@ -54,14 +49,13 @@ pub(super) fn handovers(
     budget: &Budget,
 ) -> Vec<Handover> {
     let list = &states.states;
-    let is_small = |state: &State| state.plain.nodes().max(state.next.nodes()) <= LARGEST;
     let index = |form: Form| {
         // A constant shares no literal with anything.
         let nothing = Function::constant(false);
         let ends: Vec<Function> = list
             .iter()
             .map(|state| {
-                if is_small(state) {
+                if state.is_comparable() {
                     form.deactivation(state)
                 } else {
                     nothing.clone()
@@ -76,7 +70,7 @@ pub(super) fn handovers(
         if budget.cancel.is_cancelled() {
             break;
         }
-        if !is_small(to) {
+        if !to.is_comparable() {
             continue;
         }
         let mut from = plain.sharing(&to.plain_turns_on(), budget);
@@ -84,7 +78,7 @@ pub(super) fn handovers(
         from.extend(releasable(to, states));
         for at in from {
             let from = &list[at];
-            if from.atom == to.atom || !is_small(from) {
+            if from.atom == to.atom || !from.is_comparable() {
                 continue;
             }
             if let Some(condition) = handed_over(from, to, states, conditions, budget) {

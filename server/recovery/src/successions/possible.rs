@@ -14,7 +14,7 @@ use super::handover::Handover;
 use super::shared::ByAtom;
 use super::{Evidence, Kind, MOST_PAIRS, Succession, name};
 use crate::conditions::Conditions;
-use crate::states::States;
+use crate::states::{State, States};
 
 /// Every pair of coils for which the rule holds, whatever they hold: the
 /// paper lets all rungs take part.
@@ -66,14 +66,19 @@ pub(super) fn among_states(
     budget: &Budget,
 ) -> Vec<(AtomId, AtomId, Option<Function>)> {
     let known: HashSet<(AtomId, AtomId)> = handovers.iter().map(|h| (h.from, h.to)).collect();
-    let starts = ByAtom::new(states.states.iter().map(|state| &state.turns_on));
+    let comparable: Vec<&State> = states
+        .states
+        .iter()
+        .filter(|state| state.is_comparable())
+        .collect();
+    let starts = ByAtom::new(comparable.iter().map(|state| &state.turns_on));
     let mut found = Vec::new();
-    for from in &states.states {
+    for from in &comparable {
         if budget.cancel.is_cancelled() {
             break;
         }
         for at in starts.sharing(&from.deactivation, COMMON) {
-            let to = &states.states[at];
+            let to = comparable[at];
             if from.atom == to.atom || known.contains(&(from.atom, to.atom)) {
                 continue;
             }
