@@ -85,7 +85,10 @@ pub fn run(args: &Args, io: &mut Io) -> std::io::Result<Status> {
     let Some(analysis) = program::analyse(&ladder, &budget) else {
         return Ok(Status::Interrupted);
     };
-    let mut coils = coil::coils(&analysis, &budget);
+    let mut coils = {
+        let _progress = program::progress("Wording", &ladder);
+        coil::coils(&analysis, &budget)
+    };
     if let Some(missing) = narrow(&mut coils, args) {
         io.complain(&format!("{}: {missing}", printable(&ladder.name())));
         return Ok(Status::Usage);
