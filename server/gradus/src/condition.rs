@@ -1,16 +1,7 @@
-//! Conditions as text.
-
-use logic::{Budget, Function, notation};
-use recovery::conditions::Conditions;
+//! Conditions laid out in lines.
 
 /// Where text for people is broken, counted in characters.
 const WIDTH: usize = 100;
-
-/// `function` in the notation; `None` past the budget.
-pub fn said(function: &Function, conditions: &Conditions, budget: &Budget) -> Option<String> {
-    let expr = conditions.expr(function, budget).ok()?;
-    Some(notation::write(&expr))
-}
 
 /// `text`, the condition of a line, broken between its products where it grows
 /// too long. The lines after the first begin at column `indent`.

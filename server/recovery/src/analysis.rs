@@ -101,8 +101,10 @@ impl Analysis<'_> {
         })
     }
 
-    /// What the source says about a variable.
+    /// What the source says about a variable, in one line.
     pub fn description(&self, name: &str) -> Option<Name> {
-        self.program.declarations.find(name)?.description.clone()
+        let description = self.program.declarations.find(name)?.description.as_ref()?;
+        let words: Vec<&str> = description.split_whitespace().collect();
+        (!words.is_empty()).then(|| words.join(" ").into())
     }
 }

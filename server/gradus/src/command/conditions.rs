@@ -11,11 +11,10 @@ use crate::program::{self, Ladder};
 use crate::report::printable;
 use crate::status::Status;
 
-mod coil;
 mod json;
 mod text;
 
-use coil::Coil;
+use ide::Coil;
 
 const DETAILS: &str = "\
 A condition is an irredundant sum of products over the coil, other coils and
@@ -85,7 +84,10 @@ pub fn run(args: &Args, io: &mut Io) -> std::io::Result<Status> {
     let Some(analysis) = program::analyse(&ladder, &budget) else {
         return Ok(Status::Interrupted);
     };
-    let mut coils = coil::coils(&analysis, &budget);
+    let mut coils = {
+        let _progress = program::progress("Wording", &ladder);
+        ide::coils(&analysis, &budget)
+    };
     if let Some(missing) = narrow(&mut coils, args) {
         io.complain(&format!("{}: {missing}", printable(&ladder.name())));
         return Ok(Status::Usage);

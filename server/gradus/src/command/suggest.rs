@@ -4,7 +4,7 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use clap::ValueEnum;
-use logic::Name;
+use logic::{Budget, Name};
 use recovery::Analysis;
 use recovery::successions::{self, Succession};
 
@@ -39,8 +39,8 @@ JSON:
     \"witness\": []}], \"sequence\", \"reason\",
     \"groups\": [{\"states\": [], \"sequence\", \"reason\", \"modes\": [[]]}]}
   `states` are the coils and register values that took part. `evidence` is
-  written, handover or possible; `kind` is and or or. `condition` is null past
-  the budget and for cubes. `witness` is empty: no input sequences are searched
+  written, handover or possible; `kind` is and or or. `condition` is null where
+  it is too long to be read (more than 40 products) and for cubes. `witness` is empty: no input sequences are searched
   for. A group is a set of rungs that depend on each other; `modes` are sets of
   states that replace each other in any order, such as opened and closed.
 
@@ -94,34 +94,35 @@ pub fn run(args: &Args, io: &mut Io) -> std::io::Result<Status> {
     let Some(analysis) = program::analyse(&ladder, &budget) else {
         return Ok(Status::Interrupted);
     };
-    let found = {
+    let paint = io.answer_paint();
+    let answer = {
         let _progress = program::progress("Comparing", &ladder);
-        let conditions = &analysis.conditions;
-        let (states, suggestions) = match args.method {
-            Method::Ranked => (states(&analysis), analysis.successions.clone()),
-            Method::Possible => (coils(&analysis), successions::possible(conditions, &budget)),
-            Method::Cubes => (coils(&analysis), successions::cubes(conditions, &budget)),
-        };
-        Found {
-            states,
-            suggestions,
-            analysis: &analysis,
+        let found = find(args.method, &analysis, &budget);
+        match args.method {
+            _ if args.json => format!("{:#}\n", json::json(&found, &budget)),
+            Method::Ranked => text::by_group(&found, &budget, paint),
+            Method::Possible | Method::Cubes => text::by_coil(&found, &budget, paint),
         }
     };
     if budget.cancel.is_cancelled() {
         return Ok(Status::Interrupted);
     }
-    if args.json {
-        writeln!(io.answer(), "{:#}", json::json(&found, &budget))?;
-        return Ok(ladder.status());
-    }
-    let paint = io.answer_paint();
-    let text = match args.method {
-        Method::Ranked => text::by_group(&found, &budget, paint),
-        Method::Possible | Method::Cubes => text::by_coil(&found, &budget, paint),
-    };
-    io.answer().write_all(text.as_bytes())?;
+    io.answer().write_all(answer.as_bytes())?;
     Ok(ladder.status())
+}
+
+fn find<'a>(method: Method, analysis: &'a Analysis<'a>, budget: &Budget) -> Found<'a> {
+    let conditions = &analysis.conditions;
+    let (states, suggestions) = match method {
+        Method::Ranked => (states(analysis), analysis.successions.clone()),
+        Method::Possible => (coils(analysis), successions::possible(conditions, budget)),
+        Method::Cubes => (coils(analysis), successions::cubes(conditions, budget)),
+    };
+    Found {
+        states,
+        suggestions,
+        analysis,
+    }
 }
 
 /// The states, those of registers last.

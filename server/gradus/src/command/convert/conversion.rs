@@ -11,6 +11,7 @@ use recovery::successions::{Evidence, Succession};
 use source::Diagnostic;
 
 use super::spec_file::SpecFile;
+use ide::legible;
 
 /// A conversion under way.
 pub struct Conversion<'a> {
@@ -100,15 +101,15 @@ impl<'a> Conversion<'a> {
             .collect()
     }
 
-    /// The condition of a suggestion, in the notation; `None` past the budget.
+    /// The condition of a suggestion, in the notation; `None` if it is too long.
     pub fn condition(&self, succession: &Succession) -> Option<String> {
         let condition = succession.condition.as_ref()?;
-        crate::condition::said(condition, &self.analysis.conditions, self.budget)
+        legible(condition, &self.analysis.conditions, self.budget)
     }
 
-    /// What ends a state; `None` past the budget.
+    /// What ends a state; `None` if it is too long.
     pub fn ends_on(&self, state: &Name) -> Option<String> {
         let state = self.analysis.states.find(state)?;
-        crate::condition::said(&state.deactivation, &self.analysis.conditions, self.budget)
+        legible(&state.deactivation, &self.analysis.conditions, self.budget)
     }
 }

@@ -166,7 +166,7 @@ fn question(succession: &Succession, conversion: &Conversion<'_>) -> String {
     let condition = conversion.condition(succession);
     let condition = condition
         .as_deref()
-        .unwrap_or("a condition too large to show");
+        .unwrap_or("a condition too long to show");
     text + &format!("\n  when {}\n", broken(&printable(condition), 7))
 }
 

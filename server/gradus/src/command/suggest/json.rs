@@ -7,7 +7,7 @@ use recovery::successions::Succession;
 use serde_json::{Value, json as value};
 
 use super::Found;
-use crate::condition::said;
+use ide::legible;
 
 /// All that was found, in one document.
 pub fn json(found: &Found<'_>, budget: &Budget) -> Value {
@@ -32,7 +32,7 @@ fn suggestion(succession: &Succession, found: &Found<'_>, budget: &Budget) -> Va
         "to": &*succession.to,
         "evidence": succession.evidence.word(),
         "kind": succession.kind.word(),
-        "condition": condition.and_then(|it| said(it, &found.analysis.conditions, budget)),
+        "condition": condition.and_then(|it| legible(it, &found.analysis.conditions, budget)),
         "witness": [],
     })
 }

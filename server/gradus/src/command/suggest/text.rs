@@ -8,7 +8,9 @@ use recovery::successions::{Evidence, Kind, Succession};
 
 use super::Found;
 use crate::colour::Paint;
-use crate::condition::{broken, said};
+use ide::legible;
+
+use crate::condition::broken;
 use crate::input::numbered;
 use crate::program;
 use crate::report::printable;
@@ -147,13 +149,13 @@ fn state(out: &mut String, name: &Name, by_state: &ByState<'_>, paint: Paint) {
         let line = format!("  -> {to:width$}  {why:<13}  ");
         let when = match &follower.condition {
             None => String::new(),
-            Some(condition) => match said(
+            Some(condition) => match legible(
                 condition,
                 &by_state.found.analysis.conditions,
                 by_state.budget,
             ) {
                 Some(text) => broken(&printable(&text), line.chars().count()),
-                None => "too large to show".to_owned(),
+                None => "too long to show".to_owned(),
             },
         };
         out.push_str(format!("{line}{when}").trim_end());
