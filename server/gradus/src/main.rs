@@ -13,6 +13,7 @@ mod file;
 mod input;
 mod interrupt;
 mod io;
+mod language;
 mod progress;
 mod report;
 mod status;

@@ -292,6 +292,20 @@ fn every_form_is_read_without_a_complaint() {
 }
 
 #[test]
+fn every_example_of_the_documentation_is_read() {
+    let page = include_str!("../../../docs/notation.md");
+    let mut examples = 0;
+    for block in page.split("```ladder\n").skip(1) {
+        let example = block.split("```").next().unwrap_or_default();
+        let reading = ladder::read(example.as_bytes());
+        let mistakes: Vec<_> = reading.diagnostics.iter().map(|d| &d.message).collect();
+        assert!(mistakes.is_empty(), "{mistakes:?} in {example}");
+        examples += 1;
+    }
+    assert!(examples >= 4);
+}
+
+#[test]
 fn every_mistake_is_named_in_its_place() {
     let text = fixture("ladder/errors.ladder");
     assert_eq!(drawn(&without_marks(&text)), text);
@@ -349,5 +363,8 @@ fn only_ladders_are_taken_for_ladders() {
     assert!(is_ladder("garbage\nrung \"Fill\": a -> b"));
     assert!(!is_ladder("Output of the line is measured in tons.\n"));
     assert!(!is_ladder("program flow control\nis hard"));
+    assert!(!is_ladder(
+        "PROGRAM main\n  VAR\n    a : BOOL;\n  END_VAR\n"
+    ));
     assert!(!is_ladder("Step p1, p2\nInput m, b\n"));
 }

@@ -7,6 +7,7 @@
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use logic::{Atom, AtomId, Name};
+use petgraph::Direction;
 use petgraph::algo::kosaraju_scc;
 use petgraph::graph::{DiGraph, NodeIndex};
 use petgraph::unionfind::UnionFind;
@@ -25,9 +26,9 @@ pub struct Group {
     pub sequence: bool,
     /// Why, in a sentence without a full stop.
     pub reason: String,
-    /// Pairs of states that only hand over to each other, such as opened and
+    /// Sets of states that replace each other in any order, such as opened and
     /// closed.
-    pub mode_pairs: Vec<(Name, Name)>,
+    pub modes: Vec<Vec<Name>>,
 }
 
 /// The groups that hold at least one state, in the order of their first.
@@ -93,16 +94,16 @@ pub fn verdict(groups: &[Group]) -> (bool, String) {
             .to_owned(),
         [only] => only.reason.clone(),
         many => {
-            let pairs: usize = many.iter().map(|group| group.mode_pairs.len()).sum();
+            let modes: usize = many.iter().map(|group| group.modes.len()).sum();
             let states: usize = many.iter().map(|group| group.states.len()).sum();
             format!(
                 "{states} states in {} independent groups of rungs, and in none does what ends \
                  one start another{}",
                 many.len(),
-                if pairs == 0 {
-                    String::new()
-                } else {
-                    format!(", but for {pairs} pairs of modes")
+                match modes {
+                    0 => String::new(),
+                    1 => ", but for one set of modes".to_owned(),
+                    _ => format!(", but for {modes} sets of modes"),
                 }
             )
         }
@@ -127,28 +128,28 @@ fn judged(names: &[Name], arcs: &[&Succession]) -> Group {
             graph.update_edge(*from, *to, ());
         }
     }
-    let mode_pairs: Vec<(Name, Name)> = kosaraju_scc(&graph)
+    let modes: Vec<Vec<Name>> = mode_sets(&graph)
         .into_iter()
-        .filter_map(|class| mode_pair(&class, &graph))
-        .map(|(a, b)| (names[a.index()].clone(), names[b.index()].clone()))
+        .map(|set| {
+            set.into_iter()
+                .map(|at| names[at.index()].clone())
+                .collect()
+        })
         .collect();
-    let in_pairs: BTreeSet<&Name> = mode_pairs.iter().flat_map(|(a, b)| [a, b]).collect();
+    let in_modes: BTreeSet<&Name> = modes.iter().flatten().collect();
     let in_sequence = arcs
         .iter()
         .flat_map(|arc| [&arc.from, &arc.to])
-        .filter(|name| !in_pairs.contains(name))
+        .filter(|name| !in_modes.contains(name))
         .collect::<BTreeSet<_>>()
         .len();
     let reason = if in_sequence > 0 {
         format!("{in_sequence} states hand over to each other")
-    } else if !mode_pairs.is_empty() {
-        let pairs: Vec<String> = mode_pairs
-            .iter()
-            .map(|(a, b)| format!("{a} and {b}"))
-            .collect();
+    } else if !modes.is_empty() {
+        let sets: Vec<String> = modes.iter().map(|set| set.join(", ")).collect();
         format!(
-            "only modes that hand over to each other: {}",
-            pairs.join("; ")
+            "only modes that replace each other in any order: {}",
+            sets.join("; ")
         )
     } else if let [only] = names {
         format!("a single state, {only}: nothing follows it")
@@ -162,17 +163,39 @@ fn judged(names: &[Name], arcs: &[&Succession]) -> Group {
         states: names.to_vec(),
         sequence: in_sequence > 0,
         reason,
-        mode_pairs,
+        modes,
     }
 }
 
-/// Two states that hand over to each other and to nobody else.
-fn mode_pair(class: &[NodeIndex], graph: &DiGraph<(), ()>) -> Option<(NodeIndex, NodeIndex)> {
-    let [a, b] = class else { return None };
-    let only = |one: NodeIndex, other: NodeIndex| {
-        graph.neighbors_undirected(one).all(|next| next == other)
+/// Sets of modes: states each of which hands over to every other of the set
+/// and to nothing else, as opened and closed of a valve do, or the positions
+/// of a selector. They follow each other in any order, so no sequence is in
+/// them. States that take part in the same way, such as a command and the lamp
+/// beside it, count as one.
+fn mode_sets(graph: &DiGraph<(), ()>) -> Vec<Vec<NodeIndex>> {
+    let neighbours = |node: NodeIndex, direction: Direction| {
+        graph
+            .neighbors_directed(node, direction)
+            .collect::<BTreeSet<_>>()
     };
-    (only(*a, *b) && only(*b, *a)).then_some((*a.min(b), *a.max(b)))
+    let mut sets = Vec::new();
+    for class in kosaraju_scc(graph) {
+        let members: BTreeSet<NodeIndex> = class.into_iter().collect();
+        let selects_all = members.iter().all(|node| {
+            let next = neighbours(*node, Direction::Outgoing);
+            let alike: BTreeSet<NodeIndex> = members.difference(&next).copied().collect();
+            next.is_subset(&members)
+                && next == neighbours(*node, Direction::Incoming)
+                && alike
+                    .iter()
+                    .all(|other| neighbours(*other, Direction::Outgoing) == next)
+        });
+        if members.len() > 1 && selects_all {
+            sets.push(members.into_iter().collect());
+        }
+    }
+    sets.sort();
+    sets
 }
 
 /// Classes of atoms and registers that depend on each other.

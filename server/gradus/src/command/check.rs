@@ -4,12 +4,15 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use clap::ValueEnum;
-use source::{Severity, codes};
+use ladder::Reading;
+use logic::{Budget, Cancel};
+use source::{Diagnostic, Severity, codes};
 
 use crate::colour::Paint;
 use crate::file::Unreadable;
 use crate::input::{self, Candidate, Inputs, Origin, numbered};
 use crate::io::Io;
+use crate::language;
 use crate::progress::Progress;
 use crate::report::{self, Findings};
 use crate::status::Status;
@@ -34,7 +37,7 @@ SARIF is version 2.1.0, with a rule for every code.
 
 Examples:
   gradus check line3.L5X                       one program
-  gradus check plant/                          a whole plant
+  gradus check --severity warning plant/       a whole plant, without remarks and hints
   gradus check --format sarif . > gradus.sarif for a code-review tool
   gradus check - < pasted.txt                  what somebody pasted";
 
@@ -45,6 +48,10 @@ pub struct Args {
     /// Files or folders to check; `-` is standard input.
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
+
+    /// Leave out findings that matter less than this.
+    #[arg(long, value_name = "LEAST", default_value = "hint")]
+    severity: Least,
 
     /// The form of the answer.
     #[arg(long, default_value = "text")]
@@ -65,6 +72,26 @@ enum Form {
     Sarif,
 }
 
+/// A severity, as the command line spells it.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Least {
+    Error,
+    Warning,
+    Information,
+    Hint,
+}
+
+impl From<Least> for Severity {
+    fn from(least: Least) -> Self {
+        match least {
+            Least::Error => Self::Error,
+            Least::Warning => Self::Warning,
+            Least::Information => Self::Information,
+            Least::Hint => Self::Hint,
+        }
+    }
+}
+
 /// What came of all files.
 #[derive(Default)]
 struct Checked {
@@ -78,7 +105,7 @@ struct Checked {
 /// Checks every file, then answers.
 pub fn run(args: &Args, io: &mut Io) -> std::io::Result<Status> {
     let inputs = input::expand(&args.files, input::ENDINGS);
-    let Some(checked) = check(inputs, io) else {
+    let Some(checked) = check(inputs, args.severity.into(), io) else {
         return Ok(Status::Interrupted);
     };
     let form = if args.json { Form::Json } else { args.format };
@@ -102,7 +129,7 @@ pub fn run(args: &Args, io: &mut Io) -> std::io::Result<Status> {
 }
 
 /// Checks every file; `None` if somebody pressed Ctrl-C.
-fn check(inputs: Inputs, io: &mut Io) -> Option<Checked> {
+fn check(inputs: Inputs, least: Severity, io: &mut Io) -> Option<Checked> {
     let waits_for_input = inputs.candidates.iter().any(Candidate::is_standard_input);
     // A line that moves would get in the way of somebody who types a program.
     let progress = (!waits_for_input).then(|| Progress::begin("Checking", inputs.candidates.len()));
@@ -115,7 +142,15 @@ fn check(inputs: Inputs, io: &mut Io) -> Option<Checked> {
             progress.at(part, &report::printable(&input::name(&candidate.path)));
         }
         match io.read(&candidate.path) {
-            Ok(text) => examine(candidate, text, &mut checked),
+            Ok(text) => {
+                let diagnostics = examine(&text, io.cancel());
+                if is_of_no_interest(&candidate, &diagnostics) {
+                    checked.passed_over += 1;
+                } else {
+                    checked.files += 1;
+                    checked.keep(candidate, text, diagnostics, least);
+                }
+            }
             Err(reason) => checked.unreadable.push((candidate.path, reason)),
         }
         if io.cancel().is_cancelled() {
@@ -125,22 +160,55 @@ fn check(inputs: Inputs, io: &mut Io) -> Option<Checked> {
     Some(checked)
 }
 
-/// Adds what there is to say about one file.
-fn examine(candidate: Candidate, text: Vec<u8>, checked: &mut Checked) {
-    let diagnostics = ladder::read(&text).diagnostics;
-    let is_of_no_interest = input::may_be_anything(&candidate.path)
-        && diagnostics
-            .iter()
-            .any(|found| [codes::NOT_A_PROGRAM, codes::ENCODING].contains(&found.code));
-    if candidate.origin == Origin::InFolder && is_of_no_interest {
-        checked.passed_over += 1;
-        return;
+impl Checked {
+    /// Keeps a file if there is something to say about it.
+    fn keep(
+        &mut self,
+        file: Candidate,
+        text: Vec<u8>,
+        mut found: Vec<Diagnostic>,
+        least: Severity,
+    ) {
+        found.retain(|diagnostic| diagnostic.severity <= least);
+        if !found.is_empty() {
+            self.findings.push(Findings::new(file.path, text, found));
+        }
     }
-    checked.files += 1;
-    if !diagnostics.is_empty() {
-        let findings = Findings::new(candidate.path, text, diagnostics);
-        checked.findings.push(findings);
+}
+
+/// Whether a file from a folder is none that Gradus reads, and does not pretend
+/// to be one.
+fn is_of_no_interest(candidate: &Candidate, found: &[Diagnostic]) -> bool {
+    let is_other =
+        |found: &Diagnostic| [codes::NOT_A_PROGRAM, codes::ENCODING].contains(&found.code);
+    candidate.origin == Origin::InFolder
+        && input::may_be_anything(&candidate.path)
+        && found.iter().any(is_other)
+}
+
+/// What there is to say about a file that holds `text`.
+fn examine(text: &[u8], cancel: &Cancel) -> Vec<Diagnostic> {
+    match language::of(text) {
+        language::File::Ladder(bytes) => about_ladder(bytes, cancel),
+        language::File::Spec(text) => grafcet::read(text).diagnostics,
     }
+}
+
+/// What the text of a ladder reveals, and what its conditions do.
+fn about_ladder(bytes: &[u8], cancel: &Cancel) -> Vec<Diagnostic> {
+    let budget = Budget {
+        cancel: cancel.clone(),
+        ..Budget::default()
+    };
+    let Reading {
+        program,
+        mut diagnostics,
+    } = ladder::read(bytes);
+    let conditions = recovery::conditions::conditions(&program, &budget);
+    let found = recovery::findings::findings(&program, &conditions, &budget);
+    diagnostics.extend(found);
+    diagnostics.sort_by_key(|diagnostic| (diagnostic.span, diagnostic.code));
+    diagnostics
 }
 
 fn status(checked: &Checked) -> Status {

@@ -122,7 +122,7 @@ mod tests {
 
     #[test]
     fn a_mistyped_code_is_near_the_one_that_was_meant() {
-        assert_eq!(nearest("G2012"), "G2010");
+        assert_eq!(nearest("G3009"), "G3001");
         assert_eq!(nearest("2002"), "G2002");
         assert_eq!(nearest("G110"), "G1101");
         assert_eq!(near("").len(), 3);

@@ -8,10 +8,12 @@ use std::path::{Path, PathBuf};
 
 use ladder::Format;
 use serde_json::{Value, json};
+use source::{Diagnostic, codes};
 
 use crate::file::{self, Unreadable};
 use crate::input::{self, Candidate, Origin, numbered};
 use crate::io::Io;
+use crate::language;
 use crate::report;
 use crate::status::Status;
 
@@ -64,15 +66,24 @@ struct LaidOut {
 /// Lays out the text that `bytes` hold, if it is one of those that have a
 /// canonical layout.
 fn lay_out(bytes: &[u8]) -> Option<LaidOut> {
-    let text = std::str::from_utf8(bytes).ok()?;
-    if ladder::read(bytes).program.format != Format::Ladder {
-        return None;
+    match language::of(bytes) {
+        language::File::Spec(text) => {
+            let formatted = grafcet::format(text);
+            let is_left = |found: &&Diagnostic| found.code == codes::SPEC_SYNTAX;
+            Some(LaidOut {
+                left: formatted.diagnostics.iter().filter(is_left).count(),
+                text: formatted.text,
+            })
+        }
+        language::File::Ladder(_) if ladder::read(bytes).program.format == Format::Ladder => {
+            let formatted = ladder::text::format(std::str::from_utf8(bytes).ok()?);
+            Some(LaidOut {
+                left: formatted.left.len(),
+                text: formatted.text,
+            })
+        }
+        language::File::Ladder(_) => None,
     }
-    let formatted = ladder::text::format(text);
-    Some(LaidOut {
-        text: formatted.text,
-        left: formatted.left.len(),
-    })
 }
 
 /// What became of one file.

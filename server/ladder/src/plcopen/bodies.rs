@@ -17,7 +17,7 @@ use super::names::Names;
 use super::network::{self, Body};
 use super::rungs::{self, Plan};
 use super::standard::standard;
-use super::xml::Tag;
+use super::xml::{Tag, Text};
 use crate::{Chart, Declarations, Role, Routine, Rung};
 
 /// What reading the bodies of a project needs and gives.
@@ -34,8 +34,8 @@ struct Place {
     scope: Name,
     name: Name,
     role: Role,
-    /// Whether its right rail is a transition's condition.
-    condition: bool,
+    /// The transition whose condition it is: its name and id.
+    transition: Option<(Option<Text>, String)>,
 }
 
 /// The routines of a unit; its charts go to the project.
@@ -48,7 +48,7 @@ pub(super) fn routines(project: &mut Project<'_>, at: usize, unit: &Unit<'_, '_>
         scope: unit.name.clone(),
         name: unit.name.clone(),
         role,
-        condition: false,
+        transition: None,
     };
     let mut reading = UnitReading {
         project,
@@ -59,7 +59,7 @@ pub(super) fn routines(project: &mut Project<'_>, at: usize, unit: &Unit<'_, '_>
     let bodies = unit.tag.children().filter(|tag| tag.name() == "body");
     reading.bodies(&main, bodies);
     for tag in unit.tag.inside(&has_body) {
-        let place = reading.place(tag.name(), &name_of(tag));
+        let place = reading.place(tag, &name_of(tag));
         reading.bodies(&place, tag.children().filter(|tag| tag.name() == "body"));
     }
     reading.routines
@@ -79,7 +79,10 @@ struct UnitReading<'r, 'a, 'd, 't> {
 
 impl UnitReading<'_, '_, '_, '_> {
     /// A transition or action of the unit.
-    fn place(&self, kind: &str, name: &str) -> Place {
+    fn place(&self, tag: Tag<'_, '_>, name: &str) -> Place {
+        let kind = tag.name();
+        let named = tag.attribute("name").cloned();
+        let named = named.filter(|text| !text.value.trim().is_empty());
         Place {
             scope: format!("{}/{} {name}", self.unit.name, kind.to_lowercase()).into(),
             name: name.into(),
@@ -87,7 +90,7 @@ impl UnitReading<'_, '_, '_, '_> {
                 UnitKind::Program => Role::Called,
                 UnitKind::FunctionBlock | UnitKind::Function => Role::Definition,
             },
-            condition: kind == "transition",
+            transition: (kind == "transition").then(|| (named, id_of(tag))),
         }
     }
 
@@ -95,6 +98,7 @@ impl UnitReading<'_, '_, '_, '_> {
     fn bodies<'d, 't: 'd>(&mut self, place: &Place, bodies: impl Iterator<Item = Tag<'d, 't>>) {
         let mut rungs = Vec::new();
         let mut span: Option<Span> = None;
+        let first = self.routines.len();
         for body in bodies {
             for language in body.children() {
                 if self.language(place, language, &mut rungs) {
@@ -105,6 +109,10 @@ impl UnitReading<'_, '_, '_, '_> {
         }
         if let Some(span) = span {
             self.add(place, rungs, span);
+            // Ladders inside of a chart come after the body that holds it.
+            if let Some(added) = self.routines.get_mut(first..) {
+                added.rotate_right(1);
+            }
         }
     }
 
@@ -175,8 +183,8 @@ impl UnitReading<'_, '_, '_, '_> {
         rungs: &mut Vec<Rung>,
     ) -> HashMap<Span, Name> {
         let mut diagram = drawing::read(tag, self.project.diagnostics);
-        if place.condition {
-            diagram.right_rail_is_condition();
+        if let Some((name, id)) = &place.transition {
+            diagram.right_rail_is_condition(name.as_ref(), id);
         }
         let names = &*self.project.names;
         let remembers = |node: &Node| remembers(node, names);
@@ -221,11 +229,9 @@ impl UnitReading<'_, '_, '_, '_> {
                 None => owner.child("inline"),
             };
             let Some(inline) = inline else { continue };
-            let name = [name_of(owner), name_of(inline)]
-                .into_iter()
-                .find(|name| !name.is_empty())
-                .or_else(|| Some(owner.attribute("localId")?.value.trim().into()));
-            let place = self.place(owner.name(), &name.unwrap_or_default());
+            let named = [name_of(owner), name_of(inline)];
+            let named = named.into_iter().find(|name| !name.is_empty());
+            let place = self.place(owner, &named.unwrap_or_else(|| id_of(owner).into()));
             for language in inline.children() {
                 if matches!(language.name(), "LD" | "FBD") {
                     let mut rungs = Vec::new();
@@ -235,6 +241,11 @@ impl UnitReading<'_, '_, '_, '_> {
             }
         }
     }
+}
+
+fn id_of(tag: Tag<'_, '_>) -> String {
+    let id = tag.attribute("localId");
+    id.map_or_else(String::new, |text| text.value.trim().to_owned())
 }
 
 /// Whether an output of the element may be read before it is solved: that of

@@ -142,7 +142,7 @@ fn transitions<'d, 't>(
             name: name_of(tag),
             from: Vec::new(),
             to: Vec::new(),
-            condition: condition(tag, drawn),
+            condition: condition(tag, &chart.scope, drawn),
             span: tag.span(),
         });
     }
@@ -150,7 +150,7 @@ fn transitions<'d, 't>(
 
 /// What a transition waits for: the text of its structured text, else the name
 /// under which its condition is written elsewhere.
-fn condition(tag: Tag<'_, '_>, drawn: &HashMap<Span, Name>) -> Name {
+fn condition(tag: Tag<'_, '_>, unit: &str, drawn: &HashMap<Span, Name>) -> Name {
     if let Some(said) = drawn.get(&tag.span()) {
         return said.clone();
     }
@@ -162,11 +162,14 @@ fn condition(tag: Tag<'_, '_>, drawn: &HashMap<Span, Name>) -> Name {
     }
     let inline = condition.child("inline").unwrap_or(condition);
     let language = inline.children().find(|tag| tag.name() != "addData");
-    let text = match language.map(Tag::name) {
-        Some("LD" | "FBD") => None,
-        _ => inline.text(),
-    };
-    text.map_or_else(|| name_of(tag), |text| text.value.into())
+    let drawing = matches!(language.map(Tag::name), Some("LD" | "FBD"));
+    let text = inline.text().filter(|_| !drawing);
+    match (text, id(tag, "name"), id(tag, "localId")) {
+        (Some(text), _, _) => text.value.into(),
+        (None, Some(name), _) => name.into(),
+        (None, None, Some(id)) if drawing => format!("{unit}.transition{id}").into(),
+        _ => "".into(),
+    }
 }
 
 /// Fills in the steps before and after every transition.

@@ -20,8 +20,9 @@ pub(super) struct Diagram {
 
 impl Diagram {
     /// A ladder that is the condition of a transition and has no coil hands
-    /// the power at its right rail to the transition.
-    pub(super) fn right_rail_is_condition(&mut self) {
+    /// the power at its right rail to the transition, which is known by its
+    /// name or its id.
+    pub(super) fn right_rail_is_condition(&mut self, name: Option<&Text>, id: &str) {
         let written = |node: &Node| {
             matches!(
                 node.kind,
@@ -35,6 +36,8 @@ impl Diagram {
             let fed = node.inputs.iter().any(|input| !input.sources.is_empty());
             if node.kind == NodeKind::RightRail && fed {
                 node.kind = NodeKind::Condition;
+                node.operand = name.cloned();
+                id.clone_into(&mut node.id);
             }
         }
     }

@@ -73,16 +73,17 @@ impl<'a> Lowering<'_, 'a> {
         let made_up = self.made_up(at, name);
         let upper = name.to_uppercase();
         let texts: Vec<_> = parts.iter().map(|part| &*part.text).collect();
+        let enclosed: Vec<_> = parts.iter().map(Term::enclosed).collect();
         let (text, sign) = match standard(name) {
             Some(Standard::Move) => match parts.pop() {
                 Some(part) => return part,
                 None => ("?".to_owned(), ""),
             },
             Some(Standard::Infix(sign)) if texts.len() > 1 => {
-                (format!("({})", texts.join(&format!(" {sign} "))), sign)
+                (format!("({})", enclosed.join(&format!(" {sign} "))), sign)
             }
             Some(Standard::Gate(_)) if texts.len() > 1 => {
-                (format!("({})", texts.join(&format!(" {upper} "))), "")
+                (format!("({})", enclosed.join(&format!(" {upper} "))), "")
             }
             _ => (format!("{upper}({})", texts.join(", ")), ""),
         };

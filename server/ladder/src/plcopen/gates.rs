@@ -97,7 +97,8 @@ impl<'a> Lowering<'_, 'a> {
         let mut terms = Vec::new();
         for pair in sides.windows(2) {
             let [left, right] = pair else { continue };
-            let text = format!("{} {} {}", left.text, relation.sign(), right.text);
+            let (first, second) = (left.enclosed(), right.enclosed());
+            let text = format!("{first} {} {second}", relation.sign());
             terms.push(Term {
                 form: Form::Relation(left.operand(), relation, right.operand()),
                 ..Term::composed(text, pair, node.span, &made_up)

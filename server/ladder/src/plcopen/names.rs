@@ -232,8 +232,9 @@ impl Names {
         let path = path.trim();
         let folded = match self.find(unit, path) {
             Some((symbol, rest)) => {
-                let head = symbol.name.to_string();
-                head + &self.fold_indices(unit, rest, depth)
+                let symbol = symbol.clone();
+                let (rest, _) = self.fold_members(unit, symbol.data_type, rest, depth);
+                format!("{}{rest}", symbol.name)
             }
             None => self.undeclared(unit, path, depth),
         };
@@ -250,7 +251,7 @@ impl Names {
     /// to one that another unit declares for itself.
     fn undeclared(&mut self, unit: usize, path: &str, depth: usize) -> String {
         let (head, rest) = first_name(path);
-        let rest = self.fold_indices(unit, rest, depth);
+        let (rest, _) = self.fold_members(unit, None, rest, depth);
         match self.scopes.get(unit) {
             Some(scope) if self.owned.contains(&key(head)) => {
                 format!("{}.{head}{rest}", scope.name)
@@ -259,23 +260,51 @@ impl Names {
         }
     }
 
-    /// Members keep their spelling; variables inside of brackets are folded.
-    fn fold_indices(&mut self, unit: usize, rest: &str, depth: usize) -> String {
-        if !rest.contains('[') || depth >= DEEPEST_INDEX {
-            return rest.to_owned();
-        }
+    /// What follows a variable of a type: members spelt as declared, variables
+    /// inside of brackets folded. With it the type of the whole.
+    fn fold_members(
+        &mut self,
+        unit: usize,
+        data_type: Option<Name>,
+        mut rest: &str,
+        depth: usize,
+    ) -> (String, Option<Name>) {
         let mut folded = String::new();
-        let mut copied = 0;
-        for range in index_ranges(rest) {
-            let Some(index) = rest.get(range.clone()) else {
-                continue;
-            };
-            folded += rest.get(copied..range.start).unwrap_or_default();
-            folded += &self.rewrite_at_depth(unit, index.trim(), depth + 1).text;
-            copied = range.end;
+        let mut found = data_type;
+        while !rest.is_empty() {
+            if let Some(after) = rest.strip_prefix('^') {
+                folded.push('^');
+                found = found.and_then(|found| Some(found.strip_prefix("POINTER TO ")?.into()));
+                rest = after;
+            } else if let Some(index) = index_range(rest) {
+                let inner = rest.get(index.clone()).unwrap_or_default().trim();
+                let inner = if depth < DEEPEST_INDEX {
+                    self.rewrite_at_depth(unit, inner, depth + 1).text
+                } else {
+                    inner.to_owned()
+                };
+                folded += &format!("[{inner}]");
+                found = found.and_then(|found| Some(found.split_once(" OF ")?.1.into()));
+                rest = rest.get(index.end + 1..).unwrap_or_default();
+            } else if let Some(after) = rest.strip_prefix('.') {
+                let (member, further) = first_name(after);
+                let bit = member.trim_start_matches(['%', 'X', 'x']);
+                let (name, inner) = if is_number(bit) {
+                    (bit.into(), Some("BOOL".into()))
+                } else {
+                    let member_of = found.and_then(|found| self.member_of(&found, member));
+                    member_of.map_or_else(|| (member.into(), None), |(name, found)| (name, found))
+                };
+                folded.push('.');
+                folded += &name;
+                found = inner;
+                rest = further;
+            } else {
+                folded += rest;
+                return (folded, None);
+            }
         }
-        folded += rest.get(copied..).unwrap_or_default();
-        folded
+        (folded, found)
     }
 
     /// `text` with its variables folded.
@@ -305,39 +334,16 @@ impl Names {
 
     /// Whether the variable that `path` means is Boolean; `None` if that is
     /// not known.
-    pub(super) fn is_boolean(&self, unit: usize, path: &str) -> Option<bool> {
-        self.data_type(unit, path)
-            .map(|found| found.eq_ignore_ascii_case("BOOL"))
-    }
-
-    /// The type of what `path` means.
-    pub(super) fn data_type(&self, unit: usize, path: &str) -> Option<Name> {
+    pub(super) fn is_boolean(&mut self, unit: usize, path: &str) -> Option<bool> {
         let path = path.trim();
-        let Some((symbol, mut rest)) = self.find(unit, path) else {
-            return address_type(path).map(Name::from);
-        };
-        let mut found = symbol.data_type.clone()?;
-        loop {
-            if let Some(after) = rest.strip_prefix('^') {
-                rest = after;
-                found = found.strip_prefix("POINTER TO ")?.into();
-            } else if rest.starts_with('[') {
-                let end = index_ranges(rest).first()?.end + 1;
-                rest = rest.get(end..)?;
-                let (_, element) = found.split_once(" OF ")?;
-                found = element.into();
-            } else if let Some(after) = rest.strip_prefix('.') {
-                let (member, further) = first_name(after);
-                let bit = member.trim_start_matches(['%', 'X', 'x']);
-                if !bit.is_empty() && bit.chars().all(|c| c.is_ascii_digit()) {
-                    return Some("BOOL".into());
-                }
-                found = self.member(&found, member)?;
-                rest = further;
-            } else {
-                return Some(found);
+        let found = match self.find(unit, path) {
+            Some((symbol, rest)) => {
+                let data_type = symbol.data_type.clone();
+                self.fold_members(unit, data_type, rest, 0).1
             }
-        }
+            None => address_type(path).map(Name::from),
+        };
+        found.map(|found| found.eq_ignore_ascii_case("BOOL"))
     }
 
     /// What kind of unit the project defines under that name.
@@ -353,10 +359,17 @@ impl Names {
 
     /// The type of a member of a structure or of a pin of a function block.
     pub(super) fn member(&self, data_type: &str, member: &str) -> Option<Name> {
+        self.member_of(data_type, member)?.1
+    }
+
+    /// The spelling and the type of a member.
+    fn member_of(&self, data_type: &str, member: &str) -> Option<(Name, Option<Name>)> {
         if let Some(members) = self.types.get(&key(data_type)) {
-            return members.get(&key(member))?.data_type.clone();
+            let symbol = members.get(&key(member))?;
+            return Some((symbol.name.clone(), symbol.data_type.clone()));
         }
-        standard::pin_type(data_type, member).map(Name::from)
+        let found = standard::pin_type(data_type, member)?;
+        Some((member.to_ascii_uppercase().into(), Some(found.into())))
     }
 
     /// The variable that `path` begins with, and the rest of it.
@@ -483,27 +496,21 @@ fn first_name(path: &str) -> (&str, &str) {
     path.split_at(end)
 }
 
-/// What stands inside the outer brackets of a path's rest.
-fn index_ranges(rest: &str) -> Vec<Range<usize>> {
-    let mut ranges = Vec::new();
+fn is_number(text: &str) -> bool {
+    !text.is_empty() && text.chars().all(|c| c.is_ascii_digit())
+}
+
+/// What stands inside the brackets that a path's rest begins with.
+fn index_range(rest: &str) -> Option<Range<usize>> {
     let mut depth = 0usize;
-    let mut start = 0;
     for (at, c) in rest.char_indices() {
         match c {
-            '[' => {
-                if depth == 0 {
-                    start = at + 1;
-                }
-                depth += 1;
-            }
-            ']' => {
-                depth = depth.saturating_sub(1);
-                if depth == 0 {
-                    ranges.push(start..at);
-                }
-            }
+            '[' => depth += 1,
+            ']' if depth == 1 => return Some(1..at),
+            ']' => depth -= 1,
+            _ if depth == 0 => return None,
             _ => {}
         }
     }
-    ranges
+    None
 }

@@ -180,13 +180,11 @@ impl<'a> Lowering<'_, 'a> {
     /// What a connection hands to the element at `at`.
     pub(super) fn signal(&mut self, at: usize, source: &Source) -> Signal {
         let Some(from) = self.diagram.nodes.get(source.node) else {
-            return Signal::value(Term::truth(false, source.span), Some(true), source.span);
+            return Signal::off(source.span);
         };
         match from.kind {
             NodeKind::LeftRail => return Signal::rail(from.span),
-            NodeKind::RightRail => {
-                return Signal::value(Term::truth(false, source.span), Some(true), source.span);
-            }
+            NodeKind::RightRail => return Signal::off(source.span),
             _ => {}
         }
         let turn = |node: usize| self.body.turns.get(node).copied();
@@ -196,7 +194,7 @@ impl<'a> Lowering<'_, 'a> {
         let pin = self.pin_of(source.node, &source.pin);
         match self.signals.get(&(source.node, pin)) {
             Some(signal) => signal.clone(),
-            None => Signal::value(Term::truth(false, source.span), Some(true), source.span),
+            None => Signal::off(source.span),
         }
     }
 
@@ -216,7 +214,7 @@ impl<'a> Lowering<'_, 'a> {
             _ => String::new(),
         };
         if path.is_empty() {
-            return Signal::value(Term::truth(false, source.span), Some(true), source.span);
+            return Signal::off(source.span);
         }
         let boolean = self.body.names.is_boolean(self.body.unit, &path);
         let name = self.body.names.fold(self.body.unit, &path);
@@ -272,6 +270,7 @@ impl<'a> Lowering<'_, 'a> {
             taps.extend(self.power(at, source));
         }
         let on = |term: &Term| term.form == Form::Truth(true);
+        terms.retain(|term| term.form != Form::Truth(false));
         let mut term = if terms.is_empty() {
             Term::truth(false, input.span)
         } else if terms.iter().any(on) {

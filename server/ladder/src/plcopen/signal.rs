@@ -46,6 +46,16 @@ impl Signal {
         }
     }
 
+    /// Power that never is.
+    pub(super) fn off(span: Span) -> Self {
+        Self {
+            taps: Some(Vec::new()),
+            boolean: Some(true),
+            term: Term::truth(false, span),
+            span,
+        }
+    }
+
     /// Power that leaves an element.
     pub(super) fn power(element: NodeIndex, port: Port, term: Term, span: Span) -> Self {
         Self {
@@ -206,7 +216,7 @@ impl Term {
         if let [only] = parts.as_slice() {
             return only.clone();
         }
-        let texts: Vec<_> = parts.iter().map(|part| &*part.text).collect();
+        let texts: Vec<_> = parts.iter().map(Term::enclosed).collect();
         let text = format!("({})", texts.join(&format!(" {word} ")));
         Self::composed(text, &parts, span, made_up)
     }
@@ -214,6 +224,20 @@ impl Term {
     /// As an operand of a comparison or a pin.
     pub(super) fn operand(&self) -> Operand {
         Operand::new(self.text.clone(), self.span)
+    }
+
+    /// The text as a part of a larger one: in brackets, unless it is one thing.
+    pub(super) fn enclosed(&self) -> String {
+        let whole = match self.form {
+            Form::Relation(..) => false,
+            Form::Other | Form::Sum(..) => is_enclosed(&self.text),
+            _ => true,
+        };
+        if whole {
+            self.text.to_string()
+        } else {
+            format!("({})", self.text)
+        }
     }
 
     /// As what is written to `target`.
@@ -229,6 +253,25 @@ impl Term {
             },
         }
     }
+}
+
+/// Whether the text is a name, a call, or stands in brackets.
+fn is_enclosed(text: &str) -> bool {
+    let name = text
+        .find(|c| !expression::continues_name(c) && c != '.')
+        .unwrap_or(text.len());
+    let mut depth = 0usize;
+    for (at, c) in text.char_indices().skip_while(|(at, _)| *at < name) {
+        match c {
+            '(' => depth += 1,
+            ')' => depth = depth.saturating_sub(1),
+            _ => {}
+        }
+        if depth == 0 {
+            return at + c.len_utf8() == text.len();
+        }
+    }
+    true
 }
 
 fn truth_word(truth: bool) -> &'static str {

@@ -15,7 +15,8 @@
 //! `statement`s, each is parsed by itself (`declaration`, `rung`, `output`,
 //! `term`) so that an error costs one statement, and a second pass folds
 //! addresses onto names (`names`) and draws the rungs (`network`, `drive`).
-//! [`format()`] lays a text out anew without changing what it says.
+//! [`format()`] lays a text out anew without changing what it says, and
+//! [`write()`] prints any program, whatever it was read from.
 
 mod boxes;
 mod declaration;
@@ -33,23 +34,40 @@ mod spacing;
 mod statement;
 mod syntax;
 mod term;
+mod write;
 
 pub use layout::{Formatted, format};
 pub(crate) use read::read;
-use statement::Item;
+use statement::{Item, Keyword};
+pub use write::{Lost, Written, write};
 
 /// Whether a text that is no XML and no other known form is this one: some
-/// line begins a rung, or the first line that is no comment declares
-/// something, or there are only comments.
+/// line begins a rung, or the text begins with a declaration that no foreign
+/// word follows, or there are only comments.
 pub(crate) fn looks_like_it(text: &str) -> bool {
     let mut lines = text
         .lines()
         .map(str::trim_start)
         .filter(|line| !line.is_empty() && !line.starts_with("//"));
-    match lines.next() {
-        None => !text.trim().is_empty(),
-        Some(first) => is_declaration(first) || begins_rung(first) || lines.any(begins_rung),
+    let Some(first) = lines.next() else {
+        return !text.trim().is_empty();
+    };
+    if begins_rung(first) {
+        return true;
     }
+    let Some(second) = lines.next() else {
+        return is_declaration(first);
+    };
+    is_declaration(first) && begins_statement(second)
+        || begins_rung(second)
+        || lines.any(begins_rung)
+}
+
+/// `PROGRAM main` may begin an IEC text too, but what follows there does not
+/// begin a statement here.
+fn begins_statement(line: &str) -> bool {
+    let word = line.split(|c: char| !c.is_alphanumeric()).next();
+    word.is_some_and(|word| Keyword::of(word).is_some())
 }
 
 fn begins_rung(line: &str) -> bool {

@@ -3,9 +3,10 @@
 
 #![allow(dead_code, reason = "each test uses a part")]
 
+use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::PathBuf;
 
-use ladder::{ContactKind, ElementKind, Gate, Network, Operand, Program, Value};
+use ladder::{ContactKind, Element, ElementKind, Gate, Network, Operand, Program, Value};
 use source::{LineIndex, Span};
 
 /// The text of a file under `fixtures`.
@@ -197,4 +198,50 @@ pub fn power(network: &Network, is_on: &dyn Fn(&str) -> bool) -> Vec<bool> {
         });
     }
     power
+}
+
+/// All files under `fixtures`.
+pub fn fixtures() -> Vec<PathBuf> {
+    let mut folders = vec![PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../fixtures")];
+    let mut files = Vec::new();
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(folder).expect("a readable folder") {
+            let path = entry.expect("a readable folder").path();
+            match path.is_dir() {
+                true => folders.push(path),
+                false => files.push(path),
+            }
+        }
+    }
+    files.sort();
+    files
+}
+
+/// What each coil, move, timer and counter of a network writes and whether it
+/// gets power, in alphabetical order, with every atom on or off by chance.
+pub fn powered(network: &Network, seed: u32) -> Vec<(String, bool)> {
+    let power = ladder::scan::power(network, |atom| {
+        let mut hasher = DefaultHasher::new();
+        (seed, atom.to_string()).hash(&mut hasher);
+        // More often on than off, so that long series get power too.
+        !hasher.finish().is_multiple_of(4)
+    });
+    let outputs = network.elements().filter(|(_, element)| {
+        matches!(
+            element.kind,
+            ElementKind::Coil(_)
+                | ElementKind::Assign(_)
+                | ElementKind::Timer(_)
+                | ElementKind::Counter(_)
+        )
+    });
+    let written = |element: &Element| match element.kind.writes().first() {
+        Some(operand) => operand.name.to_string(),
+        None => String::new(),
+    };
+    let mut all: Vec<_> = outputs
+        .map(|(at, element)| (written(element), power.at(at)))
+        .collect();
+    all.sort();
+    all
 }

@@ -27,5 +27,5 @@ mod time;
 
 pub use lexer::{Lexer, Token, TokenKind};
 pub use parser::{Node, NodeKind, Problem, expression, one_factor, parse};
-pub use printer::{is_literal, quoted, write, write_factor};
-pub use time::milliseconds;
+pub use printer::{is_literal, quoted, quoted_value, write, write_factor};
+pub use time::{milliseconds, time};

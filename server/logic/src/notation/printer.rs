@@ -58,9 +58,9 @@ impl Display for Atom {
                 write!(
                     f,
                     "{} {} {}",
-                    term(&c.left),
+                    quoted_value(&c.left),
                     c.relation.sign(),
-                    term(&c.right)
+                    quoted_value(&c.right)
                 )
             }
             Self::Rise(inner) => write!(f, "rise({inner})"),
@@ -70,9 +70,9 @@ impl Display for Atom {
     }
 }
 
-/// A side of a comparison: numbers and times as they are, names quoted where
-/// needed.
-fn term(side: &str) -> String {
+/// A side of a comparison as the notation writes it: numbers and times as they
+/// are, names in quotes where needed.
+pub fn quoted_value(side: &str) -> String {
     if is_literal(side) {
         side.to_owned()
     } else {

@@ -26,6 +26,31 @@ pub fn milliseconds(time: &str) -> Option<u64> {
     Some(total.round() as u64)
 }
 
+/// A number of milliseconds as the notation writes a time: `1m30s`.
+pub fn time(milliseconds: u64) -> String {
+    let units = [
+        ("d", 86_400_000),
+        ("h", 3_600_000),
+        ("m", 60_000),
+        ("s", 1_000),
+        ("ms", 1),
+    ];
+    let mut rest = milliseconds;
+    let mut text = String::new();
+    for (unit, length) in units {
+        let whole = rest / length;
+        rest %= length;
+        if whole > 0 {
+            text.push_str(&format!("{whole}{unit}"));
+        }
+    }
+    if text.is_empty() {
+        "0s".to_owned()
+    } else {
+        text
+    }
+}
+
 fn unit_in_milliseconds(unit: &str) -> Option<f64> {
     Some(match unit {
         "ms" => 1.0,
@@ -47,6 +72,14 @@ mod tests {
         assert_eq!(milliseconds("1m30s"), Some(90_000));
         assert_eq!(milliseconds("T#2.5s"), Some(2_500));
         assert_eq!(milliseconds("1d1h1ms"), Some(90_000_001));
+    }
+
+    #[test]
+    fn a_time_is_read_as_it_is_written() {
+        for (length, written) in [(0, "0s"), (90_000, "1m30s"), (86_400_250, "1d250ms")] {
+            assert_eq!(time(length), written);
+            assert_eq!(milliseconds(written), Some(length));
+        }
     }
 
     #[test]

@@ -4,22 +4,27 @@
 //! else. Before anything is accepted it gives the product form: every state a
 //! partial grafcet of two steps, off and on, which shows no sequence but does
 //! what the ladder does. Each accepted succession merges states into a
-//! sequence.
+//! sequence. [`update`] brings a spec that already exists, with what people
+//! changed in it by hand, up to new decisions.
 
 mod actions;
 mod branches;
 mod decisions;
+mod findings;
 mod interface;
 mod naming;
 mod product;
 mod register;
 mod sequence;
+mod update;
 mod wording;
 
 use grafcet::{Chart, Decision, Grafcet, Spec};
 use logic::Budget;
 
 pub use decisions::{Accept, Accepted, decide};
+pub use findings::spec_findings;
+pub use update::{Departure, Update, update};
 
 use crate::Analysis;
 use naming::Names;

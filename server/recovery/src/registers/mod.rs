@@ -78,7 +78,8 @@ impl Register {
     }
 }
 
-/// A register needs at least this many reachable values to count steps.
+/// A register must be able to stay in at least this many values to count
+/// steps.
 const FEWEST_STATES: usize = 3;
 
 /// A chart of more values than this is not drawn by counting them one by one.
@@ -113,7 +114,7 @@ pub fn registers(program: &Program, conditions: &mut Conditions, budget: &Budget
         };
         let start = start_value(&name, &writes, program, conditions);
         let chart = chart(&name, start, &values, &writes, conditions, budget);
-        if chart.states.len() >= FEWEST_STATES {
+        if chart.waiting(budget) >= FEWEST_STATES && chart.depends_on_itself {
             found.push(Register {
                 states: chart
                     .states
@@ -237,6 +238,23 @@ struct Chart {
     states: BTreeSet<i64>,
     arcs: Vec<RegisterArc>,
     left_out: BTreeSet<(i64, i64)>,
+    /// Whether some write happens at some values under other conditions than
+    /// at others, not counting the value that it writes.
+    depends_on_itself: bool,
+}
+
+impl Chart {
+    /// The number of values at which the register can stay.
+    fn waiting(&self, budget: &Budget) -> usize {
+        let stays = |value: &&i64| {
+            let mut leaving = self.arcs.iter().filter(|arc| arc.from == **value);
+            let leaving = leaving.try_fold(Function::constant(false), |sum, arc| {
+                sum.or(&arc.condition, budget)
+            });
+            !leaving.is_ok_and(|leaving| leaving.is_true())
+        };
+        self.states.iter().filter(stays).count()
+    }
 }
 
 /// The values that can be reached from `start`, and the arcs between them.
@@ -252,7 +270,10 @@ fn chart(
         states: BTreeSet::from([start]),
         arcs: Vec::new(),
         left_out: BTreeSet::new(),
+        depends_on_itself: false,
     };
+    // The condition of each write at the first value it was looked at.
+    let mut first_seen: HashMap<usize, Function> = HashMap::new();
     let mut arcs: BTreeMap<(i64, i64), RegisterArc> = BTreeMap::new();
     let mut open = VecDeque::from([start]);
     let resolved = value::dependent_coils(conditions, name);
@@ -261,7 +282,7 @@ fn chart(
             break;
         }
         let mut at = AtValue::new(name, from, &resolved, conditions, budget);
-        for write in writes {
+        for (which, write) in writes.iter().enumerate() {
             let to = match write.value {
                 Value::Constant(value) => value,
                 Value::Increment(by) => from.saturating_add(by),
@@ -271,7 +292,12 @@ fn chart(
             let Ok(condition) = at.condition(guard) else {
                 continue;
             };
-            if to == from || !at.can_happen(&condition) {
+            if to == from {
+                continue;
+            }
+            let elsewhere = first_seen.entry(which).or_insert_with(|| condition.clone());
+            chart.depends_on_itself |= *elsewhere != condition;
+            if !at.can_happen(&condition) {
                 continue;
             }
             if !values.contains(&to) {

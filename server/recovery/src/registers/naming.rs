@@ -6,13 +6,21 @@ use logic::{Name, Relation};
 /// A title longer than this is a description, of which the beginning serves.
 const LONGEST: usize = 72;
 
-/// The comment of the first rung that looks for exactly this value of the
-/// register and for no other.
+/// The comment of a rung that looks for exactly this value of the register and
+/// for no other: of the first whose comment mentions the number, else of the
+/// first.
 pub(super) fn title(program: &Program, register: &Name, value: i64) -> Option<Name> {
-    program
+    let comments: Vec<&Name> = program
         .rungs()
         .filter(|(_, rung)| compared_values(rung, register) == [value])
-        .find_map(|(_, rung)| shortened(rung.comment.as_ref()?))
+        .filter_map(|(_, rung)| rung.comment.as_ref())
+        .collect();
+    let mentions = |comment: &&&Name| {
+        let mut words = comment.split(|c: char| !c.is_alphanumeric());
+        words.any(|word| word.parse() == Ok(value))
+    };
+    let best = comments.iter().find(mentions).or(comments.first())?;
+    shortened(best)
 }
 
 /// Values that a rung compares the register with for equality, each once.
@@ -39,12 +47,12 @@ fn compared_values(rung: &Rung, register: &Name) -> Vec<i64> {
     values
 }
 
-/// The first line of a comment, cut at a word where it is long.
+/// A comment in one line, cut at a word where it is long.
 fn shortened(comment: &str) -> Option<Name> {
-    let line = comment
-        .lines()
-        .map(str::trim)
-        .find(|line| !line.is_empty())?;
+    let line = comment.split_whitespace().collect::<Vec<_>>().join(" ");
+    if line.is_empty() {
+        return None;
+    }
     if line.chars().count() <= LONGEST {
         return Some(line.into());
     }

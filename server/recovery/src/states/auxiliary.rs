@@ -24,6 +24,9 @@ const FARTHEST: usize = 3;
 /// coils into it.
 const MOST_ATOMS: usize = 48;
 
+/// Nor is one whose diagram has more nodes than this.
+const MOST_NODES: usize = 1_000;
+
 impl Auxiliaries {
     /// The auxiliary coils of a program whose states are `states`.
     pub(super) fn find(
@@ -98,6 +101,10 @@ impl Auxiliaries {
         conditions: &Conditions,
         budget: &Budget,
     ) -> Function {
+        let budget = &Budget {
+            nodes: budget.nodes.min(MOST_NODES),
+            ..budget.clone()
+        };
         let mut resolved = function.clone();
         for _ in 0..=FARTHEST {
             let inside: Vec<AtomId> = resolved

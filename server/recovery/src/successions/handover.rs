@@ -40,6 +40,11 @@ impl Form {
     }
 }
 
+/// A state whose condition has more nodes than this is compared with no
+/// other: with a condition of that size, which no person can read, every pair
+/// would cost as much as all the rest of the program.
+const LARGEST: usize = 2_000;
+
 /// All handovers between states. The plain form of their conditions is tried
 /// first: in it a chain with transition bits shows which bit ends the one and
 /// starts the other. Only where that finds nothing are the bits resolved.
@@ -49,8 +54,20 @@ pub(super) fn handovers(
     budget: &Budget,
 ) -> Vec<Handover> {
     let list = &states.states;
+    let is_small = |state: &State| state.plain.nodes().max(state.next.nodes()) <= LARGEST;
     let index = |form: Form| {
-        let ends: Vec<Function> = list.iter().map(|state| form.deactivation(state)).collect();
+        // A constant shares no literal with anything.
+        let nothing = Function::constant(false);
+        let ends: Vec<Function> = list
+            .iter()
+            .map(|state| {
+                if is_small(state) {
+                    form.deactivation(state)
+                } else {
+                    nothing.clone()
+                }
+            })
+            .collect();
         ByLiteral::new(&ends, budget)
     };
     let (plain, resolved) = (index(Form::Plain), index(Form::Resolved));
@@ -59,12 +76,15 @@ pub(super) fn handovers(
         if budget.cancel.is_cancelled() {
             break;
         }
+        if !is_small(to) {
+            continue;
+        }
         let mut from = plain.sharing(&to.plain_turns_on(), budget);
         from.extend(resolved.sharing(&to.turns_on, budget));
         from.extend(releasable(to, states));
         for at in from {
             let from = &list[at];
-            if from.atom == to.atom {
+            if from.atom == to.atom || !is_small(from) {
                 continue;
             }
             if let Some(condition) = handed_over(from, to, states, conditions, budget) {

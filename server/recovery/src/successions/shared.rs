@@ -77,7 +77,17 @@ impl ByLiteral {
     }
 }
 
+/// Diagrams larger than this are not asked for the signs of their atoms: to
+/// know them would cost more than comparing a few pairs for nothing.
+const LARGE: usize = 300;
+
 fn literals(function: &Function, budget: &Budget) -> Vec<(AtomId, bool)> {
+    if function.nodes() > LARGE {
+        let atoms = function.support().iter();
+        return atoms
+            .flat_map(|atom| [(*atom, false), (*atom, true)])
+            .collect();
+    }
     let mut literals = Vec::new();
     for &atom in function.support() {
         let (low, high) = (

@@ -1,0 +1,102 @@
+//! What a file is: a ladder or a spec. Its content tells, never its name.
+//!
+//! Ladders have readers that know their own marks, so the question here is only
+//! whether a text is a spec. Both of the project's notations declare inputs and
+//! outputs with the same words; what only a spec has is a rule with `|-`, a
+//! section, or a list of steps.
+
+use source::codes;
+
+/// A file, as what it is.
+pub enum File<'f> {
+    /// A ladder in any form, or nothing that is known: the readers of ladders
+    /// say what is wrong with it.
+    Ladder(&'f [u8]),
+    /// The rule text of a grafcet.
+    Spec(&'f str),
+}
+
+/// What follows a rail in a drawn ladder, and never `|-` in a rule.
+const DRAWN: [char; 7] = ['-', '+', '|', '[', '(', '<', '>'];
+
+const SECTIONS: [&str; 4] = ["Transitions:", "Steps:", "Environment:", "Never:"];
+
+/// What the file that holds `bytes` is.
+pub fn of(bytes: &[u8]) -> File<'_> {
+    match std::str::from_utf8(bytes) {
+        Ok(text) if is_spec(text) => File::Spec(text),
+        _ => File::Ladder(bytes),
+    }
+}
+
+fn is_spec(text: &str) -> bool {
+    let body = text.strip_prefix('\u{feff}').unwrap_or(text);
+    if body.trim_start().starts_with('<') {
+        return false;
+    }
+    let lines = || {
+        body.lines()
+            .map(|line| line.split("//").next().unwrap_or_default().trim())
+            .filter(|line| !line.is_empty())
+    };
+    if lines().any(begins_rung) {
+        return false;
+    }
+    lines().any(|line| SECTIONS.contains(&line) || is_rule(line))
+        || lines().next().is_some_and(declares_steps)
+}
+
+/// Whether the line begins a rung of a `.ladder` text.
+fn begins_rung(line: &str) -> bool {
+    let word = line.split([' ', '\t', ':', '"']).next();
+    word.is_some_and(|word| word.eq_ignore_ascii_case("rung"))
+}
+
+/// Whether the line is `label: ... |- ...`. In drawn ladders, `|-` is a rail
+/// and a wire goes on after it.
+fn is_rule(line: &str) -> bool {
+    let Some((label, rule)) = line.split_once(':') else {
+        return false;
+    };
+    let Some((_, right)) = rule.split_once("|-") else {
+        return false;
+    };
+    !label.contains(char::is_whitespace) && !right.starts_with(DRAWN)
+}
+
+/// Whether the line is a declaration that only specs have, rather than a
+/// sentence that begins with the same word.
+fn declares_steps(line: &str) -> bool {
+    let word = line.split_whitespace().next().unwrap_or_default();
+    let begins = ["Grafcet", "Step", "Macro", "Enclosing", "Transition"].contains(&word);
+    let found = |line| grafcet::read(line).diagnostics.into_iter();
+    begins && !found(line).any(|finding| finding.code == codes::SPEC_SYNTAX)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_spec_has_rules_sections_or_steps() {
+        assert!(is_spec("Input m\n\nt1:  p1*m |-  @p2\n"));
+        assert!(is_spec("\u{feff}Input m // start\r\nTransitions:\r\n"));
+        assert!(is_spec("// A tank\nStep p1, p2\n"));
+    }
+
+    #[test]
+    fn a_ladder_is_no_spec() {
+        assert!(!is_spec("input m\nrung \"t1: a |- b\": m -> v\n"));
+        assert!(!is_spec("input m\noutput v\n"));
+        assert!(!is_spec("Rung1: |---[ a ]---( b )---|\n"));
+        assert!(!is_spec("Drain: |-| |--( b )---|\n"));
+        assert!(!is_spec("<project>t1: a |- b</project>"));
+        assert!(!is_spec("XIC(a)OTE(b);"));
+    }
+
+    #[test]
+    fn neither_is_a_sentence() {
+        assert!(!is_spec("Step back from the machine.\n"));
+        assert!(!is_spec(""));
+    }
+}
