@@ -11,7 +11,7 @@ use std::collections::HashSet;
 use logic::{AtomId, Budget, Function};
 
 use super::handover::Handover;
-use super::shared::ByAtom;
+use super::shared::{ByAtom, COMMON};
 use super::{Evidence, Kind, MOST_PAIRS, Succession, name};
 use crate::conditions::Conditions;
 use crate::states::States;
@@ -55,9 +55,6 @@ pub fn possible(conditions: &Conditions, budget: &Budget) -> Vec<Succession> {
     }
     found
 }
-
-/// A variable that more states than this depend on does not tell them apart.
-const COMMON: usize = 40;
 
 /// What is possible between states and is no handover already.
 pub(super) fn among_states(
