@@ -11,11 +11,10 @@ use crate::program::{self, Ladder};
 use crate::report::printable;
 use crate::status::Status;
 
-mod coil;
 mod json;
 mod text;
 
-use coil::Coil;
+use ide::Coil;
 
 const DETAILS: &str = "\
 A condition is an irredundant sum of products over the coil, other coils and
@@ -87,7 +86,7 @@ pub fn run(args: &Args, io: &mut Io) -> std::io::Result<Status> {
     };
     let mut coils = {
         let _progress = program::progress("Wording", &ladder);
-        coil::coils(&analysis, &budget)
+        ide::coils(&analysis, &budget)
     };
     if let Some(missing) = narrow(&mut coils, args) {
         io.complain(&format!("{}: {missing}", printable(&ladder.name())));

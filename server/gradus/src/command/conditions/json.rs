@@ -4,8 +4,8 @@
 use serde_json::{Value, json as value};
 use source::Span;
 
-use super::coil::{Coil, Drawn, Said, kind_word};
 use crate::program::Ladder;
+use ide::{Coil, Drawn, Said, kind_word};
 
 /// All coils in one document, in the order of the source.
 pub fn json(ladder: &Ladder, coils: &[Coil<'_>]) -> Value {

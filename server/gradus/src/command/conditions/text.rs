@@ -2,10 +2,10 @@
 
 use ladder::CoilKind;
 
-use super::coil::{Coil, Drawn, Part, Said};
 use crate::colour::Paint;
 use crate::condition::broken;
 use crate::report::printable;
+use ide::{Coil, Drawn, Part, Said};
 
 /// The column at which conditions begin.
 const COLUMN: usize = 14;

@@ -11,7 +11,7 @@ use recovery::successions::{Evidence, Succession};
 use source::Diagnostic;
 
 use super::spec_file::SpecFile;
-use crate::condition::legible;
+use ide::legible;
 
 /// A conversion under way.
 pub struct Conversion<'a> {

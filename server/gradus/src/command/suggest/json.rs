@@ -7,7 +7,7 @@ use recovery::successions::Succession;
 use serde_json::{Value, json as value};
 
 use super::Found;
-use crate::condition::legible;
+use ide::legible;
 
 /// All that was found, in one document.
 pub fn json(found: &Found<'_>, budget: &Budget) -> Value {

@@ -8,7 +8,9 @@ use recovery::successions::{Evidence, Kind, Succession};
 
 use super::Found;
 use crate::colour::Paint;
-use crate::condition::{broken, legible};
+use ide::legible;
+
+use crate::condition::broken;
 use crate::input::numbered;
 use crate::program;
 use crate::report::printable;

@@ -1,5 +1,3 @@
-//! Coils with all that is known of them, in words.
-
 use std::collections::BTreeMap;
 
 use ladder::{CoilKind, Routine, Rung};
@@ -8,7 +6,7 @@ use recovery::Analysis;
 use recovery::conditions::{Conditions, Place, Variable, WriteKind};
 use source::Span;
 
-use crate::condition::said;
+use crate::said;
 
 /// A variable that coils write.
 pub struct Coil<'a> {
@@ -36,9 +34,13 @@ pub struct Coil<'a> {
 
 /// The four conditions, each as text.
 pub struct Said {
+    /// Its value after a scan.
     pub activation: String,
+    /// What starts it.
     pub turns_on: String,
+    /// What keeps it.
     pub stays_on: String,
+    /// What ends it.
     pub deactivation: String,
 }
 
@@ -63,8 +65,11 @@ pub enum Part {
 
 /// A coil as it is drawn.
 pub struct Drawn<'a> {
+    /// How it writes.
     pub kind: CoilKind,
+    /// The routine it stands in.
     pub routine: &'a Routine,
+    /// The rung it stands on.
     pub rung: &'a Rung,
     /// The power at it; `None` past the budget.
     pub guard: Option<String>,
