@@ -6,7 +6,7 @@ use logic::notation::{Problem, TokenKind};
 
 use super::parse::{Parsed, Parser};
 use super::syntax::{Entry, Item, Kind, Line, Usage, comment_text};
-use super::words::{PartWord, Word};
+use super::words::{PartWord, Word, is_leading};
 use crate::{Instance, PartKind, Step, StepKind, Variable};
 
 /// Reads the names after `word`, up to the first that cannot be understood.
@@ -87,6 +87,12 @@ fn after(word: Word) -> &'static str {
 }
 
 fn item(parser: &mut Parser<'_>, word: Word) -> Result<Item, Problem> {
+    // A forgotten line end is likelier than such a name.
+    let text = parser.lexer.text();
+    let next = parser.lexer.peek();
+    if next.is_some_and(|next| next.kind == TokenKind::Name && is_leading(next.text(text))) {
+        return Err(parser.expected("a name, in quotes if it is a word such as `Step`"));
+    }
     let (name, _) = match word {
         Word::Marking | Word::Activation => parser.name(Usage::Step, "the name of a step")?,
         _ => parser.name(Usage::Declares(word), "a name")?,

@@ -184,14 +184,6 @@ fn part(files: &[RealFile]) -> Part {
             // Writing into a string cannot fail.
             let _ = writeln!(part.sequences, "- {name}: {reason}. States: {states}.");
         }
-        for register in &analysis.registers {
-            let (of, states) = (&register.name, register.states.len());
-            let arcs = register.arcs.len();
-            let _ = writeln!(
-                part.sequences,
-                "- {name}: the register `{of}` has {states} states and {arcs} arcs."
-            );
-        }
         part.total += counts;
     }
     part
@@ -213,7 +205,7 @@ fn page(parts: &[(&str, Part)]) -> String {
          and known boxes |\n\
          | opaque | rungs with a guard that depends on what an unknown box does |\n\
          | states | states held in one bit: sealed-in coils, and variables both set and reset |\n\
-         | registers | whole numbers that count steps |\n\
+         | registers | whole numbers that count steps; see [registers](registers.md) |\n\
          | sequences | groups of rungs that hold a sequence, each by the number of states in the group |\n",
     );
     for (title, part) in parts {

@@ -6,7 +6,7 @@ use std::collections::{BTreeSet, HashMap, HashSet};
 use logic::Name;
 
 use super::edits::Edits;
-use super::lines::{follows_unfinished, remove_statement};
+use super::lines::remove_statement;
 use crate::model::{SaysTheSame, comment_serves};
 use crate::rules::spell::comment_line;
 use crate::rules::syntax::{Document, Entry, Item, Kind, Statement};
@@ -177,7 +177,7 @@ pub(super) fn edit(document: &Document<'_>, at: usize, fates: &Fates, edits: &mu
         .map(|fate| matches!(fate, Fate::Remove))
         .collect();
     if statement.problem.is_none() && removed.iter().all(|removed| *removed) {
-        remove_statement(statement, follows_unfinished(document, at), edits);
+        remove_statement(document, at, edits);
     } else {
         remove(statement, entries, &removed, edits);
     }

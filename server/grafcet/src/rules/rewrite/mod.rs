@@ -15,7 +15,7 @@ use std::mem::discriminant;
 use logic::Name;
 
 use self::edits::Edits;
-use self::lines::{follows_unfinished, remove_statement};
+use self::lines::remove_statement;
 use self::rules::{Counts, How, Placed};
 pub(crate) use self::spots::{Room, room};
 use super::parse;
@@ -90,7 +90,7 @@ fn name(document: &Document<'_>, target: &Spec, edits: &mut Edits<'_>) {
             continue;
         };
         match wanted {
-            None => remove_statement(statement, follows_unfinished(document, at), edits),
+            None => remove_statement(document, at, edits),
             Some(wanted) if first && wanted != name => {
                 let range = statement.span().range();
                 edits.replace(range.start, range.end, grafcet_line(wanted));
@@ -124,13 +124,13 @@ fn parts(document: &Document<'_>, target: &Spec, edits: &mut Edits<'_>) {
             .map(|name| target.grafcet.part(name));
         match (&statement.kind, part) {
             (Kind::Part(..), Some(None)) => {
-                remove_statement(statement, follows_unfinished(document, at), edits);
+                remove_statement(document, at, edits);
             }
             (Kind::Broken(Some(_)), Some(None)) if statement.section.is_none() => {
                 move_to_first_block(document, at, edits);
             }
             (Kind::Section(section), Some(None)) if is_free(document, at, *section) => {
-                remove_statement(statement, follows_unfinished(document, at), edits);
+                remove_statement(document, at, edits);
             }
             (Kind::Part(name, kind), Some(Some(part)))
                 if seen.insert(name) && *kind != part.kind =>
@@ -160,7 +160,7 @@ fn move_to_first_block(document: &Document<'_>, at: usize, edits: &mut Edits<'_>
         let text = document.text.get(line.start..line.end);
         lines.push(text.unwrap_or_default().to_owned());
     }
-    remove_statement(statement, follows_unfinished(document, at), edits);
+    remove_statement(document, at, edits);
     edits.insert_lines(spots::end_of_first_block(document), &lines);
 }
 

@@ -6,7 +6,7 @@ use std::hash::Hash;
 use logic::Name;
 
 use super::edits::Edits;
-use super::lines::{follows_unfinished, remove_statement};
+use super::lines::remove_statement;
 use crate::model::{SaysTheSame, comment_serves};
 use crate::rules::spell::comment_line;
 use crate::rules::syntax::{Document, Statement};
@@ -95,9 +95,7 @@ pub(super) fn edit<T: SaysTheSame, K: Eq + Hash>(
         }
     }
     for (at, _) in by_key.into_values().flatten() {
-        if let Some(statement) = document.statements.get(at) {
-            remove_statement(statement, follows_unfinished(document, at), edits);
-        }
+        remove_statement(document, at, edits);
     }
     missing
 }
