@@ -2,8 +2,12 @@
 //! files that others own. What it answers is in the transcripts.
 
 mod answers;
+mod convert;
 #[cfg(unix)]
 mod interrupt;
+#[cfg(unix)]
+mod interview;
+mod quick_start;
 
 /// The built executable in a folder of its own.
 fn gradus() -> end_to_end::Gradus {

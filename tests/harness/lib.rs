@@ -8,7 +8,11 @@
 mod corpus;
 mod gradus;
 mod repository;
+#[cfg(unix)]
+mod terminal;
 
 pub use corpus::corpus;
 pub use gradus::{Ended, Gradus};
 pub use repository::{path, update_is_asked_for};
+#[cfg(unix)]
+pub use terminal::Terminal;

@@ -152,7 +152,15 @@ fn beginning(folder: &Path) -> io::Result<tempfile::NamedTempFile> {
         use std::os::unix::fs::PermissionsExt;
         builder.permissions(fs::Permissions::from_mode(0o666));
     }
-    builder.tempfile_in(folder)
+    builder.tempfile_in(folder).map_err(|error| {
+        // The system's words name a file that nobody asked for.
+        let why = match error.kind() {
+            ErrorKind::NotFound => "there is no such folder",
+            ErrorKind::PermissionDenied => "nothing may be written into its folder",
+            _ => return error,
+        };
+        io::Error::new(error.kind(), why)
+    })
 }
 
 #[cfg(test)]

@@ -84,7 +84,7 @@ pub fn read(path: &Path, io: &mut Io) -> std::io::Result<Option<Ladder>> {
 fn trouble(name: &str, errors: usize, paint: Paint) -> String {
     let word = paint.severity(Severity::Warning, "warning");
     let errors = numbered(errors, "error");
-    format!("{word}: {name}: {errors} in the text; `gradus check {name}` shows what was left out\n")
+    format!("{word}: {name}: {errors} in the text; `gradus check` shows them\n")
 }
 
 /// All that is recovered from `ladder`; `None` if somebody pressed Ctrl-C.

@@ -61,6 +61,8 @@ pub enum Part {
     Auxiliary,
     /// It follows its condition.
     Follows,
+    /// Its conditions are past the budget, so that nobody can tell.
+    TooLarge,
 }
 
 /// A coil as it is drawn.
@@ -141,6 +143,8 @@ fn part(variable: &Variable, analysis: &Analysis<'_>, budget: &Budget) -> Part {
         Part::State
     } else if analysis.states.stored.iter().any(|it| it.atom == atom) {
         Part::Repeats
+    } else if variable.next.is_err() {
+        Part::TooLarge
     } else if variable.kept_when_skipped {
         Part::KeptWhenSkipped
     } else if variable.is_persistent(budget) {

@@ -189,6 +189,31 @@ fn a_rule_deleted_by_hand_stays_deleted_and_a_rejection_stays_rejected() {
 }
 
 #[test]
+fn several_actions_of_one_step_on_one_output_all_survive() {
+    let program = program(FORMS[0]);
+    let budget = Budget::default();
+    let analysis = recovery::analyse(&program, &budget);
+    let original = write(&spec(&analysis, &[], &budget));
+    let edited = original.replace(
+        "Xv1: |- v1\n",
+        "Xv1: ls1 |- v1  // one\nXv1: ls3 |- v1  // two\n\
+         Xv2: |- set v1\nXv2: |- set v1 on deactivation\n",
+    );
+    let reading = grafcet::read(&edited);
+    let updated = update(&analysis, &reading.spec, &[], &budget);
+    assert_eq!(rewrite(&edited, &updated.spec), edited);
+    let given: Vec<bool> = updated
+        .departures
+        .iter()
+        .map(|departure| match departure {
+            Departure::Action { ladder, .. } => ladder.is_some(),
+            other => panic!("an action, not {other:?}"),
+        })
+        .collect();
+    assert_eq!(given, [true, false, false, false]);
+}
+
+#[test]
 fn a_changed_ladder_makes_its_old_rules_stale() {
     let path = end_to_end::path(FORMS[0]);
     let before = std::fs::read_to_string(path).expect("a readable fixture");

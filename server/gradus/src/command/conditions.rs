@@ -147,7 +147,7 @@ fn sum(ladder: &Ladder, coils: &[Coil<'_>]) -> String {
     let name = printable(&ladder.name());
     let verb = if holding == 1 { "holds" } else { "hold" };
     format!(
-        "{name}: {}, of which {holding} {verb} a value\n",
+        "{name}: {}, {holding} {verb} a value\n",
         numbered(coils.len(), "coil")
     )
 }

@@ -56,11 +56,13 @@ JSON:
   {\"file\", \"spec\", \"state\", \"steps\", \"transitions\", \"actions\",
     \"states\": [{\"state\", \"accepted\": [{\"to\": [], \"new\"}], \"written\": [],
       \"open\": [{\"to\", \"evidence\", \"kind\"}], \"rejected\": [], \"initial\"}],
-    \"two_step\": [], \"without_step\": [], \"sequence\", \"reason\", \"diagnostics\": [], \"text\"}
+    \"two_step\": [], \"unreached\": [], \"in_definitions\": [], \"sequence\",
+    \"reason\", \"diagnostics\": [], \"text\"}
   `state` is new, changed, unchanged, would_change or printed. `states` are those
   about which something is decided, written or open; `two_step` those that no
-  accepted pair ties to a sequence, `without_step` those to which nothing accepted
-  leads from where their sequence starts. `diagnostics` are as in `gradus check`, about
+  accepted pair ties to a sequence, `unreached` those to which nothing accepted
+  leads from where their sequence starts, `in_definitions` those of blocks that the
+  file defines, which are not drawn. `diagnostics` are as in `gradus check`, about
   the spec. `text` is the spec with `-o -`, else null.
 
 Exit status: 1 if the text of the ladder or of the spec has errors. Rules that

@@ -123,7 +123,7 @@ fn read(path: &Path, io: &mut Io) -> std::io::Result<Option<(Grafcet, Status)>> 
         let word = io.aside_paint().severity(Severity::Warning, "warning");
         let errors = numbered(errors, "error");
         io.aside(&format!(
-            "{word}: {name}: {errors} in the text; `gradus check {name}` shows what was left out\n"
+            "{word}: {name}: {errors} in the text; `gradus check` shows them\n"
         ))?;
         Status::ProblemsFound
     } else {

@@ -235,29 +235,29 @@ impl Merge<'_> {
             .map(|variable| &variable.name)
             .chain(self.file.chart.steps.iter().map(|step| &step.name))
             .collect();
-        for (key, action) in &file {
-            let untouched = base.get(key).is_some_and(|it| self.same_action(it, action));
-            let given = new.get(key).copied();
-            let agrees = given.is_some_and(|it| self.same_action(it, action));
-            if untouched && !agrees {
+        for (key, own) in &file {
+            let before = base.get(key).map_or(&[][..], Vec::as_slice);
+            let given = new.get(key).map_or(&[][..], Vec::as_slice);
+            let untouched = self.apart(own, before) == (Vec::new(), Vec::new());
+            let (odd, missing) = self.apart(own, given);
+            if untouched && !(odd.is_empty() && missing.is_empty()) {
                 continue;
             }
-            if !agrees {
+            let mut missing = missing.into_iter();
+            for spec in odd {
                 self.departures.push(Departure::Action {
-                    spec: (*action).clone(),
-                    ladder: given.cloned(),
+                    spec: spec.clone(),
+                    ladder: missing.next().cloned(),
                 });
             }
-            let place = self
-                .merged
-                .chart
-                .actions
-                .iter()
-                .position(|it| ActionKey::of(it) == *key);
-            match place {
-                Some(at) => self.merged.chart.actions[at] = (*action).clone(),
-                None => self.merged.chart.actions.push((*action).clone()),
-            }
+            self.departures
+                .extend(missing.cloned().map(Departure::MissingAction));
+            // The file's own wording stays, and its place if it has one.
+            let actions = &mut self.merged.chart.actions;
+            let is_of_key = |it: &Action| ActionKey::of(it) == *key;
+            let at = actions.iter().position(is_of_key).unwrap_or(actions.len());
+            actions.retain(|it| !is_of_key(it));
+            actions.splice(at..at, own.iter().copied().cloned());
         }
         let removed = |action: &Action| {
             let key = ActionKey::of(action);
@@ -310,6 +310,19 @@ impl Merge<'_> {
             && same_meaning(&a.receptivity, &b.receptivity, self.budget)
     }
 
+    /// What of each list the other does not have.
+    fn apart<'l>(&self, a: &[&'l Action], b: &[&'l Action]) -> (Vec<&'l Action>, Vec<&'l Action>) {
+        let mut left = b.to_vec();
+        let mut only_a = Vec::new();
+        for &action in a {
+            match left.iter().position(|it| self.same_action(it, action)) {
+                Some(at) => drop(left.remove(at)),
+                None => only_a.push(action),
+            }
+        }
+        (only_a, left)
+    }
+
     fn same_action(&self, a: &Action, b: &Action) -> bool {
         a.kind == b.kind
             && match (&a.condition, &b.condition) {
@@ -338,7 +351,8 @@ fn same_meaning(a: &Expr, b: &Expr, budget: &Budget) -> bool {
     }
 }
 
-/// What makes two actions the same one, said differently.
+/// What actions have in common that may be the same one, said differently. A
+/// person may write several of one key, which all count.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct ActionKey {
     step: Name,
@@ -364,8 +378,15 @@ impl ActionKey {
     }
 }
 
-fn by_key(actions: &[Action]) -> BTreeMap<ActionKey, &Action> {
-    actions.iter().map(|it| (ActionKey::of(it), it)).collect()
+fn by_key(actions: &[Action]) -> BTreeMap<ActionKey, Vec<&Action>> {
+    let mut by_key: BTreeMap<ActionKey, Vec<&Action>> = BTreeMap::new();
+    for action in actions {
+        by_key
+            .entry(ActionKey::of(action))
+            .or_default()
+            .push(action);
+    }
+    by_key
 }
 
 fn by_name<'l, T>(list: &'l [T], name: impl Fn(&'l T) -> &'l Name) -> BTreeMap<&'l Name, &'l T> {

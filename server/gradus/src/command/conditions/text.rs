@@ -25,7 +25,9 @@ pub fn block(coil: &Coil<'_>, paint: Paint) -> String {
     for write in &coil.writes {
         out += &place(write, coil.writes.len() > 1);
     }
-    out += &format!("  {}\n", part(coil.part));
+    if coil.part != Part::TooLarge {
+        out += &format!("  {}\n", part(coil.part));
+    }
     conditions(&mut out, coil.conditions.as_ref(), coil.part, paint);
     if !coil.interlocks.is_empty() {
         field(&mut out, "interlocks", &coil.interlocks.join(", "), paint);
@@ -77,6 +79,7 @@ fn part(part: Part) -> &'static str {
         Part::Oscillates => "falls in itself",
         Part::Auxiliary => "auxiliary: carries a condition to other rungs",
         Part::Follows => "follows its condition",
+        Part::TooLarge => TOO_LARGE,
     }
 }
 

@@ -3,7 +3,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use grafcet::{Grafcet, Verdict};
+use grafcet::Verdict;
 use logic::Name;
 use recovery::groups;
 use recovery::successions::{Evidence, Succession};
@@ -18,9 +18,11 @@ pub struct Outcome<'a> {
     pub states: Vec<OfState<'a>>,
     /// States that no accepted succession ties to a sequence.
     pub two_step: Vec<Name>,
-    /// States that no step of the spec stands for: no accepted succession leads
-    /// to them from where their sequence starts.
-    pub without_step: Vec<Name>,
+    /// States of which something is accepted, but nothing accepted leads to
+    /// them from where their sequence starts.
+    pub unreached: Vec<Name>,
+    /// States of blocks that the file defines: they belong to the instances.
+    pub in_definitions: Vec<Name>,
     /// Steps of the spec.
     pub steps: usize,
     /// Transitions of the spec.
@@ -61,10 +63,21 @@ impl<'a> Outcome<'a> {
     /// What came of `conversion`, whose spec now holds `text`.
     pub fn of(conversion: &Conversion<'a>, text: &str) -> Self {
         let grafcet = grafcet::read(text).spec.grafcet;
+        let tied = tied(conversion);
+        let drawn: BTreeSet<&Name> = grafcet.steps().filter_map(|it| it.state.as_ref()).collect();
+        let those = |is_tied: bool, is_drawn: bool| {
+            let states = conversion.analysis.states.states.iter();
+            states
+                .map(|state| &state.name)
+                .filter(|name| tied.contains(name) == is_tied && drawn.contains(name) == is_drawn)
+                .cloned()
+                .collect()
+        };
         Self {
             states: states(conversion),
-            two_step: two_step(conversion),
-            without_step: without_step(conversion, &grafcet),
+            two_step: those(false, true),
+            unreached: those(true, false),
+            in_definitions: those(false, false),
             steps: grafcet.steps().count(),
             transitions: grafcet.transitions().count(),
             actions: grafcet.actions().count(),
@@ -138,26 +151,13 @@ fn places(conversion: &Conversion<'_>) -> BTreeMap<Name, usize> {
     bits.chain(values).zip(0..).collect()
 }
 
-fn two_step(conversion: &Conversion<'_>) -> Vec<Name> {
-    let accepted = conversion.decisions.iter();
-    let tied: BTreeSet<&Name> = accepted
+/// The states that accepted successions speak of.
+fn tied<'c>(conversion: &'c Conversion<'_>) -> BTreeSet<&'c Name> {
+    let decisions = conversion.decisions.iter();
+    decisions
         .flat_map(|decision| match &decision.verdict {
             Verdict::Accept { from, to } => std::iter::once(from).chain(to).collect(),
             _ => Vec::new(),
         })
-        .collect();
-    let states = conversion.analysis.states.states.iter();
-    states
-        .map(|state| state.name.clone())
-        .filter(|name| !tied.contains(name))
-        .collect()
-}
-
-fn without_step(conversion: &Conversion<'_>, grafcet: &Grafcet) -> Vec<Name> {
-    let drawn: BTreeSet<&Name> = grafcet.steps().filter_map(|it| it.state.as_ref()).collect();
-    let states = conversion.analysis.states.states.iter();
-    states
-        .map(|state| state.name.clone())
-        .filter(|name| !drawn.contains(name))
         .collect()
 }

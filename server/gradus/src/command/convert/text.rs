@@ -23,15 +23,18 @@ pub fn summary(outcome: &Outcome<'_>, name: &str, state: State, paint: Paint) ->
         let head = paint.bold("No sequence here:");
         out += &format!("{head} {}\n", printable(reason));
     }
-    if !outcome.two_step.is_empty() {
-        let count = numbered(outcome.two_step.len(), "state");
-        let names = listed(outcome.two_step.iter());
-        out += &format!("{count} left as a grafcet of two steps each: {names}\n");
-    }
-    if !outcome.without_step.is_empty() {
-        let count = numbered(outcome.without_step.len(), "state");
-        let names = listed(outcome.without_step.iter());
-        out += &format!("{count} without a step, since nothing accepted leads there: {names}\n");
+    for (states, what) in [
+        (&outcome.two_step, "left as a grafcet of two steps each"),
+        (&outcome.unreached, "not reached by what is accepted"),
+        (
+            &outcome.in_definitions,
+            "in definitions of blocks, not drawn",
+        ),
+    ] {
+        if !states.is_empty() {
+            let count = numbered(states.len(), "state");
+            out += &format!("{count} {what}: {}\n", listed(states.iter()));
+        }
     }
     let open: usize = outcome.states.iter().map(|state| state.open.len()).sum();
     if open > 0 {
@@ -69,8 +72,9 @@ fn of_state(out: &mut String, state: &OfState<'_>, paint: Paint) {
         let new = if accepted.new { "  (new)" } else { "" };
         out.push_str(&format!("  accepted  -> {}{new}\n", to.join(" & ")));
     }
-    for to in &state.written {
-        out.push_str(&format!("  written   -> {}\n", printable(to)));
+    if !state.written.is_empty() {
+        let names = listed(state.written.iter());
+        out.push_str(&format!("  written   -> {names}\n"));
     }
     for (word, evidence) in [
         ("open", Evidence::Handover),
