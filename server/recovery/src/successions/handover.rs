@@ -1,7 +1,10 @@
 //! Handover: the condition that ends one state is what starts the other.
 
+use std::collections::BTreeSet;
+
 use logic::{AtomId, Budget, Function, Stop};
 
+use super::common::{ByCommon, Ending};
 use super::shared::ByLiteral;
 use crate::conditions::Conditions;
 use crate::states::{State, States};
@@ -34,10 +37,6 @@ impl Form {
     fn turns_on(self, state: &State) -> Function {
         self.next(state).restrict(state.atom, false)
     }
-
-    fn deactivation(self, state: &State) -> Function {
-        self.next(state).restrict(state.atom, true).not()
-    }
 }
 
 /// All handovers between states. The plain form of their conditions is tried
@@ -49,34 +48,29 @@ pub(super) fn handovers(
     budget: &Budget,
 ) -> Vec<Handover> {
     let list = &states.states;
-    let index = |form: Form| {
-        // A constant shares no literal with anything.
-        let nothing = Function::constant(false);
-        let ends: Vec<Function> = list
-            .iter()
-            .map(|state| {
-                if state.is_comparable() {
-                    form.deactivation(state)
-                } else {
-                    nothing.clone()
-                }
-            })
-            .collect();
-        ByLiteral::new(&ends, budget)
-    };
-    let (plain, resolved) = (index(Form::Plain), index(Form::Resolved));
+    let mut indexes = [Form::Plain, Form::Resolved].map(|form| {
+        let endings = list.iter().map(|state| match state.is_comparable() {
+            true => Ending {
+                ends: ending(state, None, form),
+                again: form.turns_on(state),
+            },
+            false => Ending::never(),
+        });
+        Index::new(form, &endings.collect::<Vec<_>>(), budget)
+    });
+    let mut followed = neighbours(states);
     let mut found = Vec::new();
-    for to in list {
+    for (to, from) in list.iter().zip(&mut followed) {
         if budget.cancel.is_cancelled() {
             break;
         }
         if !to.is_comparable() {
             continue;
         }
-        let mut from = plain.sharing(&to.plain_turns_on(), budget);
-        from.extend(resolved.sharing(&to.turns_on, budget));
-        from.extend(releasable(to, states));
-        for at in from {
+        for index in &mut indexes {
+            from.extend(index.sharing(to, budget));
+        }
+        for &at in &*from {
             let from = &list[at];
             if from.atom == to.atom || !from.is_comparable() {
                 continue;
@@ -93,14 +87,47 @@ pub(super) fn handovers(
     found
 }
 
-/// Places of the states that stand in what starts `to` and that it ends.
-fn releasable(to: &State, states: &States) -> Vec<usize> {
-    to.turns_on
-        .support()
-        .iter()
-        .filter_map(|atom| states.place(*atom))
-        .filter(|at| states.states[*at].deactivation.depends_on(to.atom))
-        .collect()
+/// Finds the states whose ending may have to do with a start.
+struct Index {
+    form: Form,
+    by_literal: ByLiteral,
+    by_common: ByCommon,
+}
+
+impl Index {
+    fn new(form: Form, endings: &[Ending], budget: &Budget) -> Self {
+        let by_literal = ByLiteral::new(endings.iter().map(|ending| &ending.ends), budget);
+        Self {
+            form,
+            by_common: ByCommon::new(endings, by_literal.common(), budget),
+            by_literal,
+        }
+    }
+
+    fn sharing(&mut self, to: &State, budget: &Budget) -> BTreeSet<usize> {
+        let starts = self.form.turns_on(to);
+        let mut found = self.by_literal.sharing(&starts, budget);
+        found.extend(self.by_common.sharing(&starts, budget));
+        found
+    }
+}
+
+/// For each state the places of those that it names in its condition, or that
+/// name it: setting one on and the other off changes what their conditions
+/// share.
+fn neighbours(states: &States) -> Vec<BTreeSet<usize>> {
+    let mut neighbours = vec![BTreeSet::new(); states.states.len()];
+    for (at, state) in states.states.iter().enumerate() {
+        for form in [Form::Plain, Form::Resolved] {
+            for other in form.next(state).support() {
+                if let Some(other) = states.place(*other) {
+                    neighbours[at].insert(other);
+                    neighbours[other].insert(at);
+                }
+            }
+        }
+    }
+    neighbours
 }
 
 /// The condition under which `from` hands over to `to`, auxiliary coils
@@ -145,7 +172,7 @@ fn handover(
     let situation =
         |function: &Function| function.restrict(from.atom, true).restrict(to.atom, false);
     let starts = situation(&form.turns_on(to));
-    let ends = situation(&ending(from, to, form, budget)?);
+    let ends = situation(&ending(from, Some(to.atom), form));
     let again = form.turns_on(from).restrict(to.atom, false);
     let apart = started_apart(&form.turns_on(from), &form.turns_on(to));
     let quiet = if apart {
@@ -177,9 +204,8 @@ pub(crate) fn started_apart(first: &Function, second: &Function) -> bool {
 
 /// What ends `from`, with the normally closed contacts of states that lock it
 /// out set aside (the paper, section 3.2), but not those of `to`.
-fn ending(from: &State, to: &State, form: Form, budget: &Budget) -> Result<Function, Stop> {
-    budget.check()?;
-    let aside = from.interlocks.iter().filter(|other| **other != to.atom);
+fn ending(from: &State, to: Option<AtomId>, form: Form) -> Function {
+    let aside = from.interlocks.iter().filter(|other| Some(**other) != to);
     let next = aside.fold(form.next(from).clone(), |next, other| {
         let open = next.restrict(*other, false);
         // A contact whose opening alone ends the state is no interlock but
@@ -190,7 +216,7 @@ fn ending(from: &State, to: &State, form: Form, budget: &Budget) -> Result<Funct
             open
         }
     });
-    Ok(next.restrict(from.atom, true).not())
+    next.restrict(from.atom, true).not()
 }
 
 fn locks_out(by: &State, state: &State) -> bool {

@@ -5,6 +5,7 @@
 //! best come first. [`ranked`] looks at states only, `possible` and `cubes`
 //! at every coil, as the paper does.
 
+mod common;
 mod cubes;
 mod handover;
 mod kind;

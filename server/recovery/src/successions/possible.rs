@@ -11,7 +11,7 @@ use std::collections::HashSet;
 use logic::{AtomId, Budget, Function};
 
 use super::handover::Handover;
-use super::shared::ByAtom;
+use super::shared::{ByAtom, COMMON};
 use super::{Evidence, Kind, MOST_PAIRS, Succession, name};
 use crate::conditions::Conditions;
 use crate::states::{State, States};
@@ -56,9 +56,6 @@ pub fn possible(conditions: &Conditions, budget: &Budget) -> Vec<Succession> {
     found
 }
 
-/// A variable that more states than this depend on does not tell them apart.
-const COMMON: usize = 40;
-
 /// What is possible between states and is no handover already.
 pub(super) fn among_states(
     states: &States,
@@ -71,7 +68,7 @@ pub(super) fn among_states(
         .iter()
         .filter(|state| state.is_comparable())
         .collect();
-    let starts = ByAtom::new(comparable.iter().map(|state| &state.turns_on));
+    let starts = ByAtom::new(comparable.iter().map(|state| &state.next));
     let mut found = Vec::new();
     for from in &comparable {
         if budget.cancel.is_cancelled() {
@@ -82,11 +79,7 @@ pub(super) fn among_states(
             if from.atom == to.atom || known.contains(&(from.atom, to.atom)) {
                 continue;
             }
-            let both = from
-                .deactivation
-                .restrict(to.atom, false)
-                .and(&to.turns_on.restrict(from.atom, true), budget);
-            if let Ok(both) = both
+            if let Ok(both) = from.deactivation.and(&to.next, budget)
                 && !both.is_false()
             {
                 found.push((from.atom, to.atom, Some(both)));

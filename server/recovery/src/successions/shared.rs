@@ -4,6 +4,10 @@ use std::collections::{BTreeSet, HashMap};
 
 use logic::{AtomId, Budget, Function};
 
+/// An atom that more conditions than this depend on does not tell them apart:
+/// every pair shares it.
+pub(super) const COMMON: usize = 40;
+
 /// An index of functions by the atoms they depend on.
 #[derive(Debug, Default)]
 pub(super) struct ByAtom {
@@ -66,14 +70,22 @@ impl ByLiteral {
         Self { users }
     }
 
-    /// Places of the functions that share a literal with `function`.
+    /// Places of the functions that share a literal with `function`, not
+    /// counting literals that are [common](COMMON).
     pub(super) fn sharing(&self, function: &Function, budget: &Budget) -> BTreeSet<usize> {
         literals(function, budget)
             .into_iter()
             .filter_map(|literal| self.users.get(&literal))
+            .filter(|users| users.len() <= COMMON)
             .flatten()
             .copied()
             .collect()
+    }
+
+    /// The atoms of all common literals.
+    pub(super) fn common(&self) -> BTreeSet<AtomId> {
+        let common = self.users.iter().filter(|(_, users)| users.len() > COMMON);
+        common.map(|((atom, _), _)| *atom).collect()
     }
 }
 
