@@ -1,7 +1,7 @@
 //! Transcripts: documents that show commands and what they answer, checked.
 //!
 //! Every Markdown file in this folder, and every one in `docs/` that holds a
-//! transcript, is one test. To add a test, add a file; `docs/testing.md` tells
+//! transcript, is one test; so is the README. To add a test, add a file; `docs/testing.md` tells
 //! how one is written. `UPDATE=1` rewrites what the commands answer.
 
 mod transcript;
@@ -18,6 +18,7 @@ fn main() {
     let trials = ["tests/transcripts", "docs"]
         .into_iter()
         .flat_map(documents)
+        .chain([("README".to_owned(), end_to_end::path("README.md"))])
         .map(|(name, path)| Trial::test(name, move || check(&path)))
         .collect();
     libtest_mimic::run(&arguments, trials).exit();

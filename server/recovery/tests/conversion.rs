@@ -213,6 +213,50 @@ fn several_actions_of_one_step_on_one_output_all_survive() {
     assert_eq!(given, [true, false, false, false]);
 }
 
+/// What becomes of a spec in which a person changes a decision from `old` to
+/// `new` by hand: the same as if the new decisions had been made at once.
+#[track_caller]
+fn check_by_hand(old: &str, new: &str) {
+    let program = program(FORMS[0]);
+    let budget = Budget::default();
+    let analysis = recovery::analyse(&program, &budget);
+    let decisions = |lines: &str| grafcet::read(lines).spec.decisions;
+    let before = write(&spec(&analysis, &decisions(old), &budget));
+    let rules = before.split("\n//!").next().expect("rules");
+    let edited = format!("{rules}\n{new}");
+    let reading = grafcet::read(&edited);
+    let updated = update(&analysis, &reading.spec, &reading.spec.decisions, &budget);
+    assert_eq!(updated.departures, [], "{old:?} to {new:?}");
+    let text = rewrite(&edited, &updated.spec);
+    let at_once = spec(&analysis, &decisions(new), &budget);
+    assert_eq!(
+        grafcet::differences(
+            &grafcet::read(&text).spec.grafcet,
+            &at_once.grafcet,
+            &Default::default()
+        ),
+        [],
+        "{old:?} to {new:?}"
+    );
+}
+
+#[test]
+fn a_decision_changed_by_hand_takes_the_rules_along() {
+    let all = "//! accept v1 -> v2 & h & m\n//! accept v1 -> v4\n//! accept v2 -> v3\n\
+               //! accept v4 -> v1\n//! accept h -> v3\n";
+    check_by_hand("", "//! accept v1 -> v2 & h & m\n");
+    check_by_hand(
+        "//! accept v1 -> v2\n",
+        "//! accept v1 -> v2\n//! accept v2 -> v3\n",
+    );
+    check_by_hand("//! accept v2 -> v3\n", "//! reject v2 -> v3\n");
+    check_by_hand(all, &all.replace("//! accept v1 -> v4\n", ""));
+    check_by_hand(all, &all.replace("accept v2 -> v3", "reject v2 -> v3"));
+    check_by_hand(all, &format!("{all}//! initial v1\n"));
+    check_by_hand(&format!("{all}//! initial v1\n"), all);
+    check_by_hand(all, "");
+}
+
 #[test]
 fn a_changed_ladder_makes_its_old_rules_stale() {
     let path = end_to_end::path(FORMS[0]);

@@ -20,6 +20,12 @@ fn main() {
         let t = std::time::Instant::now();
         let g = recovery::groups::groups(&c, &s, &regs, &su);
         let tg = t.elapsed();
-        println!("{n}: {} bytes read {read:?} cond {tc:?} states {ts:?} regs {tr:?} succ {tsu:?} ({}) groups {tg:?} ({}) peak {:?}", text.len(), su.len(), g.len(), bench::memory::peak());
+        println!(
+            "{n}: {} bytes read {read:?} cond {tc:?} states {ts:?} regs {tr:?} succ {tsu:?} ({}) groups {tg:?} ({}) peak {:?}",
+            text.len(),
+            su.len(),
+            g.len(),
+            bench::memory::peak()
+        );
     }
 }

@@ -2,11 +2,11 @@
 
 use std::collections::BTreeSet;
 
-use grafcet::{Places, Reading, Role, rewrite};
+use grafcet::{Action, Mention, Places, Reading, Role, rewrite};
 use logic::{Budget, Name, notation};
 use source::{Diagnostic, Edit, Span, codes};
 
-use super::{Accepted, Departure, update};
+use super::{Departure, update};
 use crate::Analysis;
 
 /// Findings beyond this many carry no fix: each costs a pass over the text.
@@ -26,7 +26,7 @@ pub fn spec_findings(
     found.extend(gone_states(analysis, reading));
     let updated = update(analysis, spec, &spec.decisions, budget);
     for (at, departure) in updated.departures.iter().enumerate() {
-        let mut diagnostic = described(departure, &reading.places);
+        let mut diagnostic = described(departure, reading);
         if at < MOST_FIXES {
             let mut renewed = updated.spec.clone();
             departure.renew(&mut renewed);
@@ -44,7 +44,8 @@ pub fn spec_findings(
     found
 }
 
-fn described(departure: &Departure, places: &Places) -> Diagnostic {
+fn described(departure: &Departure, reading: &Reading) -> Diagnostic {
+    let places = &reading.places;
     let rule = |name: &Name, role: Role| {
         let mut rules = places.rules.iter();
         let found = rules.find(|rule| rule.role == role && rule.name == *name);
@@ -75,7 +76,7 @@ fn described(departure: &Departure, places: &Places) -> Diagnostic {
             ),
         ),
         Departure::Action { spec, ladder } => (
-            rule(&spec.step, Role::Step),
+            rule_of(spec, reading),
             match ladder {
                 Some(ladder) => format!(
                     "the ladder gives `{}` on {} another condition: {}",
@@ -103,42 +104,47 @@ fn described(departure: &Departure, places: &Places) -> Diagnostic {
     Diagnostic::new(codes::RULE_NOT_SUPPORTED, span, message)
 }
 
+/// Where the rule of an action stands: rules of one step bear one label, and
+/// stand in the order of its actions.
+fn rule_of(action: &Action, reading: &Reading) -> Span {
+    let chart = &reading.spec.grafcet.chart;
+    let nth = chart.actions_of(&action.step).position(|it| it == action);
+    let rules = reading.places.rules.iter();
+    let mut rules = rules.filter(|rule| rule.role == Role::Step && rule.name == action.step);
+    rules
+        .nth(nth.unwrap_or(0))
+        .map_or(Span::default(), |rule| rule.span)
+}
+
 fn declaration(places: &Places, step: Option<&Name>) -> Span {
     let mut mentions = places.mentions.iter();
     let found = mentions.find(|it| it.declares && it.role == Role::Step && Some(&it.name) == step);
     found.map_or(Span::default(), |mention| mention.span)
 }
 
+/// Names of states in decisions that the ladder does not have.
 fn unknown_decisions(analysis: &Analysis<'_>, reading: &Reading) -> Vec<Diagnostic> {
-    let decisions = reading.spec.decisions.iter();
-    decisions
-        .zip(&reading.places.decisions)
-        .flat_map(|(decision, span)| {
-            let accepted = Accepted::new(analysis, std::slice::from_ref(decision));
-            accepted.unknown.into_iter().map(|name| {
-                Diagnostic::new(
-                    codes::DECISION_UNKNOWN,
-                    *span,
-                    format!("the ladder has no state `{name}`"),
-                )
-                .help("remove the line, or write the name as `gradus suggest` lists it")
-            })
+    let values = register_values(analysis);
+    let is_known = |name: &Name| values.contains(name) || analysis.states.find(name).is_some();
+    state_mentions(reading)
+        .filter(|mention| is_in_decision(mention, reading) && !is_known(&mention.name))
+        .map(|mention| {
+            Diagnostic::new(
+                codes::DECISION_UNKNOWN,
+                mention.span,
+                format!("the ladder has no state `{}`", mention.name),
+            )
+            .help("remove the line, or write the name as `gradus suggest` lists it")
         })
         .collect()
 }
 
+/// States that steps stand for and that the ladder does not have.
 fn gone_states(analysis: &Analysis<'_>, reading: &Reading) -> Vec<Diagnostic> {
-    let values: BTreeSet<Name> = analysis
-        .registers
-        .iter()
-        .flat_map(|register| register.states.iter().map(|s| register.state_name(s.value)))
-        .collect();
+    let values = register_values(analysis);
     let is_known = |name: &Name| values.contains(name) || analysis.conditions.find(name).is_some();
-    reading
-        .places
-        .mentions
-        .iter()
-        .filter(|mention| mention.role == Role::State && !is_known(&mention.name))
+    state_mentions(reading)
+        .filter(|mention| !is_in_decision(mention, reading) && !is_known(&mention.name))
         .map(|mention| {
             Diagnostic::new(
                 codes::STATE_GONE,
@@ -147,6 +153,25 @@ fn gone_states(analysis: &Analysis<'_>, reading: &Reading) -> Vec<Diagnostic> {
             )
             .help("remove the step and its rules, or name the state as the ladder does now")
         })
+        .collect()
+}
+
+fn state_mentions(reading: &Reading) -> impl Iterator<Item = &Mention> {
+    let mentions = reading.places.mentions.iter();
+    mentions.filter(|mention| mention.role == Role::State)
+}
+
+fn is_in_decision(mention: &Mention, reading: &Reading) -> bool {
+    let decisions = &reading.places.decisions;
+    let after = decisions.partition_point(|span| span.start <= mention.span.start);
+    let last = after.checked_sub(1).and_then(|at| decisions.get(at));
+    last.is_some_and(|span| mention.span.start < span.end)
+}
+
+fn register_values(analysis: &Analysis<'_>) -> BTreeSet<Name> {
+    let registers = analysis.registers.iter();
+    registers
+        .flat_map(|register| register.states.iter().map(|s| register.state_name(s.value)))
         .collect()
 }
 

@@ -8,6 +8,7 @@
 //! changed in it by hand, up to new decisions.
 
 mod actions;
+mod base;
 mod branches;
 mod decisions;
 mod findings;

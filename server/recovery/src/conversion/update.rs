@@ -14,6 +14,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use grafcet::{Action, ActionKind, Decision, Effect, Grafcet, Spec, Step, Transition, Verdict};
 use logic::{Atoms, Budget, Expr, Function, Name};
 
+use super::base::base;
 use crate::Analysis;
 
 /// A spec brought up to date.
@@ -56,8 +57,8 @@ pub fn update(
     decisions: &[Decision],
     budget: &Budget,
 ) -> Update {
-    let base = super::spec(analysis, &existing.decisions, budget);
-    let new = if existing.decisions == decisions {
+    let base = base(analysis, existing, budget);
+    let new = if base.decisions == decisions {
         base.clone()
     } else {
         super::spec(analysis, decisions, budget)

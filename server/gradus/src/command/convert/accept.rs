@@ -104,7 +104,11 @@ pub fn apply(
                     .map(|name| decide::state(name, analysis))
                     .collect::<Result<_, _>>()?;
                 check_values(&from, &to, analysis)?;
-                decide::accept(&mut decisions, &from, &to);
+                if analysis.states.find(&from).is_some() {
+                    decide::accept(&mut decisions, &from, &to);
+                } else {
+                    decide::take_rejection_back(&mut decisions, &from, &to);
+                }
             }
             Ok(decisions)
         }

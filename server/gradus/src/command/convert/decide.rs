@@ -56,12 +56,17 @@ fn value(text: &str, analysis: &Analysis<'_>) -> Option<Name> {
         .then(|| register.state_name(value))
 }
 
-/// Accepts that the states `to` start together after `from`.
-pub fn accept(decisions: &mut Vec<Decision>, from: &Name, to: &[Name]) {
+/// Takes back that some of the states `to` do not follow `from`.
+pub fn take_rejection_back(decisions: &mut Vec<Decision>, from: &Name, to: &[Name]) {
     decisions.retain(|decision| match &decision.verdict {
         Verdict::Reject { from: f, to: t } => f != from || !to.contains(t),
         _ => true,
     });
+}
+
+/// Accepts that the states `to` start together after `from`.
+pub fn accept(decisions: &mut Vec<Decision>, from: &Name, to: &[Name]) {
+    take_rejection_back(decisions, from, to);
     // The first decision about one of these states becomes the new one; they
     // leave all others.
     let mut new = Some(to.to_vec());
