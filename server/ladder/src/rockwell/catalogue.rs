@@ -187,9 +187,9 @@ const ALARM: &[Slot] = &[
 
 /// The meaning of `mnemonic`, in either case, if it is known.
 pub(super) fn meaning(mnemonic: &str) -> Option<Meaning> {
-    let upper = mnemonic.to_ascii_uppercase();
+    let upper = || mnemonic.bytes().map(|byte| byte.to_ascii_uppercase());
     let place = TABLE
-        .binary_search_by(|(known, _)| known.cmp(&upper.as_str()))
+        .binary_search_by(|(known, _)| known.bytes().cmp(upper()))
         .ok()?;
     TABLE.get(place).map(|(_, meaning)| *meaning)
 }

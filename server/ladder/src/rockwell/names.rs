@@ -36,6 +36,9 @@ pub(super) struct Names {
     /// The key of an aliased address and the alias.
     aliases: HashMap<String, usize>,
     interned: HashMap<String, Name>,
+    /// By scope, every spelling that was noted and, once asked for, its
+    /// canonical name: a program writes few names very often.
+    spellings: HashMap<Scope, HashMap<String, Option<Name>>>,
     /// Every variable by its name, with the key and place of its first use.
     first_uses: Vec<FirstUse>,
 }
@@ -114,7 +117,11 @@ impl Names {
     /// Learns the undeclared tags in `text`, an operand in `scope`. They count
     /// as the controller's.
     pub(super) fn note(&mut self, scope: Scope, text: &str) {
-        self.note_nested(scope, text, 0);
+        let noted = self.spellings.entry(scope).or_default();
+        if !noted.contains_key(text) {
+            noted.insert(text.to_owned(), None);
+            self.note_nested(scope, text, 0);
+        }
     }
 
     fn note_nested(&mut self, scope: Scope, text: &str, depth: usize) {
@@ -209,17 +216,30 @@ impl Names {
         }
     }
 
+    /// Whether some alias stands for an address or a part of a tag.
+    pub(super) fn has_aliases(&self) -> bool {
+        !self.aliases.is_empty()
+    }
+
     /// The canonical name of `text`, an operand in `scope`. A constant keeps its
     /// notation; in an expression the tags are made canonical.
     pub(super) fn canonical(&mut self, scope: Scope, text: &str, span: Span) -> Name {
-        let text = text.trim();
-        if operand::is_constant(text) {
-            return text.into();
+        let known = self.spellings.get(&scope).and_then(|known| known.get(text));
+        if let Some(Some(name)) = known {
+            return name.clone();
         }
-        match operand::path(text) {
-            Some(path) => self.canonical_path(scope, &path, text, span),
-            None => self.canonical_expression(scope, text, span).into(),
-        }
+        let trimmed = text.trim();
+        let name = if operand::is_constant(trimmed) {
+            trimmed.into()
+        } else {
+            match operand::path(trimmed) {
+                Some(path) => self.canonical_path(scope, &path, trimmed, span),
+                None => self.canonical_expression(scope, trimmed, span).into(),
+            }
+        };
+        let known = self.spellings.entry(scope).or_default();
+        known.insert(text.to_owned(), Some(name.clone()));
+        name
     }
 
     fn canonical_path(

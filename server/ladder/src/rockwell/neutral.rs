@@ -361,7 +361,8 @@ pub(super) fn trimmed(text: &str, range: Range<usize>) -> Range<usize> {
 
 pub(super) fn skip_blanks(text: &str, from: usize) -> usize {
     let rest = text.get(from..).unwrap_or_default();
-    from + (rest.len() - rest.trim_start().len())
+    // Nearly always there is no blank, or it is ASCII.
+    from + (rest.len() - rest.trim_ascii_start().trim_start().len())
 }
 
 /// Whether a name may begin with this character.
@@ -372,8 +373,12 @@ pub(super) fn starts_name(character: char) -> bool {
 /// The end of the name that begins at byte `start`.
 pub(super) fn name_end(text: &str, start: usize) -> usize {
     let rest = text.get(start..).unwrap_or_default();
+    let is_plain = |byte: &u8| byte.is_ascii_alphanumeric() || *byte == b'_';
+    let plain = rest.bytes().take_while(|byte| is_plain(byte)).count();
+    // Most names end here. Those with letters beyond ASCII go on.
+    let rest = rest.get(plain..).unwrap_or_default();
     let length = rest.find(|c: char| !(c.is_alphanumeric() || c == '_'));
-    start + length.unwrap_or(rest.len())
+    start + plain + length.unwrap_or(rest.len())
 }
 
 #[cfg(test)]

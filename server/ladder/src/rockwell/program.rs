@@ -138,7 +138,11 @@ impl Parsed<'_, '_> {
         names: &mut Names,
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Vec<Routine> {
-        let called = self.called();
+        // Only a program that names no main routine begins where no call leads.
+        let called = match self.unit.kind {
+            UnitKind::Program { main: None } => self.called(),
+            _ => HashSet::new(),
+        };
         let mut routines = Vec::new();
         for (source, parsed) in self.unit.routines.iter().zip(&self.routines) {
             let mut rungs = Vec::new();
@@ -301,8 +305,12 @@ fn surroundings(project: &Project<'_>, units: &[Parsed<'_, '_>], names: &Names) 
             for range in written(text, instruction) {
                 let operand = text.get(range).unwrap_or_default();
                 // An alias may stand for a preset; it is written without a dot.
-                let may_be_preset =
-                    !operand.contains('.') || operand.to_lowercase().ends_with(".pre");
+                let may_be_preset = if operand.contains('.') {
+                    operand.get(operand.len().saturating_sub(4)..)
+                        .is_some_and(|end| end.eq_ignore_ascii_case(".pre"))
+                } else {
+                    names.has_aliases()
+                };
                 if !may_be_preset {
                     continue;
                 }
@@ -325,10 +333,13 @@ fn surroundings(project: &Project<'_>, units: &[Parsed<'_, '_>], names: &Names) 
 fn writes_enable_out(parsed: &Parsed<'_, '_>) -> bool {
     let mut writes = false;
     parsed.each_instruction(&mut |text, instruction| {
-        writes |= written(text, instruction).into_iter().any(|range| {
-            text.get(range)
+        let is_it = |range: &Range<usize>| {
+            text.get(range.clone())
                 .is_some_and(|operand| operand.eq_ignore_ascii_case("EnableOut"))
-        });
+        };
+        writes |= !writes
+            && instruction.operands.iter().any(is_it)
+            && written(text, instruction).iter().any(is_it);
     });
     writes
 }

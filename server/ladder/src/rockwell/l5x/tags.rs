@@ -57,7 +57,7 @@ fn tag(element: Element<'_, '_>, class: Class) -> Tag {
         tag.initial = value
             .and_then(|value| value.attribute("Value"))
             .map(Into::into);
-        presets_inside(data, &mut String::new(), &mut tag.presets);
+        presets_inside(data, &mut Vec::new(), &mut tag.presets);
     }
     let listed = plain
         .into_iter()
@@ -87,33 +87,46 @@ fn data_type(element: Element<'_, '_>) -> Option<Name> {
     })
 }
 
-/// Collects the presets of timers and counters in decorated data. The depth of a
-/// document bounds the recursion.
-fn presets_inside(element: Element<'_, '_>, path: &mut String, presets: &mut Vec<(String, i64)>) {
-    let is_timer = element
-        .attribute("DataType")
-        .is_some_and(|data_type| data::is_timer_or_counter(&data_type));
+/// Collects the presets of timers and counters in decorated data: `element`
+/// lies inside the elements of `path`. The depth of a document bounds the
+/// recursion.
+fn presets_inside<'d, 't>(
+    element: Element<'d, 't>,
+    path: &mut Vec<Element<'d, 't>>,
+    presets: &mut Vec<(String, i64)>,
+) {
+    let mut holds_preset = None;
+    path.push(element);
     for child in element.children() {
-        let length = path.len();
-        match child.name() {
-            "DataValueMember" => {
-                if is_timer && child.attribute_is("Name", "PRE") {
-                    let value = child.attribute("Value");
-                    let value = value.and_then(|value| operand::integer(&value));
-                    presets.extend(value.map(|value| (path.clone(), value)));
-                }
-                continue;
-            }
-            "StructureMember" | "ArrayMember" => {
-                path.push('.');
-                path.push_str(&name(child, "Name").to_lowercase());
-            }
-            "Element" => path.push_str(&name(child, "Index").to_lowercase()),
-            _ => {}
+        if child.name() != "DataValueMember" {
+            presets_inside(child, path, presets);
+            continue;
         }
-        presets_inside(child, path, presets);
-        path.truncate(length);
+        let holds_preset = *holds_preset.get_or_insert_with(|| is_timer_or_counter(element));
+        if holds_preset && child.attribute_is("Name", "PRE") {
+            let value = child.attribute("Value");
+            let value = value.and_then(|value| operand::integer(&value));
+            presets.extend(value.map(|value| (path_of(path), value)));
+        }
     }
+    path.pop();
+}
+
+fn is_timer_or_counter(element: Element<'_, '_>) -> bool {
+    element
+        .attribute("DataType")
+        .is_some_and(|data_type| data::is_timer_or_counter(&data_type))
+}
+
+/// The path within a tag that nested elements of data stand for: `.tmr[3]`, in
+/// lower case.
+fn path_of(elements: &[Element<'_, '_>]) -> String {
+    let parts = elements.iter().map(|element| match element.name() {
+        "StructureMember" | "ArrayMember" => format!(".{}", name(*element, "Name")),
+        "Element" => name(*element, "Index"),
+        _ => String::new(),
+    });
+    parts.collect::<String>().to_lowercase()
 }
 
 fn class_of_tag(element: Element<'_, '_>) -> Class {

@@ -3,7 +3,7 @@ use std::borrow::Cow;
 use source::Span;
 
 use super::attributes::Attributes;
-use super::{Document, Node, NodeKind};
+use super::{Document, Node, NodeKind, wide};
 use crate::rockwell::passage::Passage;
 
 /// An element of a document.
@@ -16,8 +16,18 @@ pub(crate) struct Element<'d, 't> {
 impl<'d, 't> Element<'d, 't> {
     /// The tag's name, without a namespace prefix.
     pub(crate) fn name(self) -> &'t str {
-        let name = self.document.name_at(self.at);
-        name.rsplit(':').next().unwrap_or(name)
+        let node = self.node();
+        match node.kind {
+            NodeKind::Element {
+                prefix,
+                name_length,
+                ..
+            } => {
+                let start = node.inner_start;
+                self.document.text_at(start + prefix, start + name_length)
+            }
+            _ => "",
+        }
     }
 
     /// Whether its end tag was there.
@@ -33,7 +43,7 @@ impl<'d, 't> Element<'d, 't> {
         };
         let tag = self.inner();
         let (_, value) =
-            Attributes::of(tag, name_length).find(|(key, _)| key.eq_ignore_ascii_case(name))?;
+            Attributes::of(tag, name_length as usize).find(|(key, _)| key.eq_ignore_ascii_case(name))?;
         let value = tag.get(value)?;
         Some(quick_xml::escape::unescape(value).unwrap_or(Cow::Borrowed(value)))
     }
@@ -71,7 +81,7 @@ impl<'d, 't> Element<'d, 't> {
         let end = if self.is_complete() {
             self.node().end
         } else {
-            usize::MAX
+            u32::MAX
         };
         document.nodes[self.at..]
             .iter()
@@ -88,14 +98,14 @@ impl<'d, 't> Element<'d, 't> {
     pub(crate) fn passage(self) -> Passage<'t> {
         let document = self.document;
         let source = document.source;
-        let mut passage = Passage::empty(source.base + self.node().inner_end);
+        let mut passage = Passage::empty(source.base + self.node().inner_end as usize);
         for at in self.inside() {
             let node = &document.nodes[at];
-            let place = source.span(node.inner_start, node.inner_end);
+            let place = source.span(node.inner_start as usize, node.inner_end as usize);
             match node.kind {
                 NodeKind::Text => {
-                    let text = source.text.get(node.inner_start..node.inner_end);
-                    passage.push(text.unwrap_or_default(), place);
+                    let text = document.text_at(node.inner_start, node.inner_end);
+                    passage.push(text, place);
                 }
                 NodeKind::Character(character) => passage.push_character(character, place),
                 NodeKind::Element { .. } => {}
@@ -106,29 +116,30 @@ impl<'d, 't> Element<'d, 't> {
 
     /// The bytes of the element, tags included.
     pub(crate) fn span(self) -> Span {
-        self.document
-            .source
-            .span(self.node().start, self.node().end)
+        let node = self.node();
+        let source = self.document.source;
+        source.span(node.start as usize, node.end as usize)
     }
 
     /// The bytes of the start tag.
     pub(crate) fn tag_span(self) -> Span {
         let node = self.node();
         let source = self.document.source;
-        let rest = source.text.get(node.inner_end..).unwrap_or_default();
+        let end = node.inner_end as usize;
+        let rest = source.text.get(end..).unwrap_or_default();
         let closing = if rest.starts_with("/>") { 2 } else { 1 };
-        source.span(node.start, node.inner_end + closing)
+        source.span(node.start as usize, end + closing)
     }
 
     fn inside(self) -> impl Iterator<Item = usize> {
         let document = self.document;
-        std::iter::successors(self.node().first_child, move |&at| document.nodes[at].next)
+        let first = self.node().first_child;
+        std::iter::successors(first, move |&at| document.nodes[wide(at)].next).map(wide)
     }
 
     fn inner(self) -> &'t str {
         let node = self.node();
-        let range = node.inner_start..node.inner_end;
-        self.document.source.text.get(range).unwrap_or_default()
+        self.document.text_at(node.inner_start, node.inner_end)
     }
 
     fn node(self) -> &'d Node {

@@ -9,6 +9,7 @@
 mod attributes;
 mod element;
 
+use std::num::NonZeroU32;
 use std::ops::Range;
 
 use quick_xml::events::{BytesRef, Event};
@@ -30,23 +31,32 @@ pub(super) struct Document<'t> {
     nodes: Vec<Node>,
 }
 
+/// A large file has a node for every few dozen bytes, so that nodes are kept
+/// small: places of a file, and of a list of its nodes, fit 32 bits.
 #[derive(Clone, Copy)]
 struct Node {
     kind: NodeKind,
     /// The whole node, in bytes of the text.
-    start: usize,
-    end: usize,
+    start: u32,
+    end: u32,
     /// What is inside: the tag's name and attributes, or the text.
-    inner_start: usize,
-    inner_end: usize,
-    first_child: Option<usize>,
-    last_child: Option<usize>,
-    next: Option<usize>,
+    inner_start: u32,
+    inner_end: u32,
+    // Node 0 is nobody's child.
+    first_child: Option<NonZeroU32>,
+    last_child: Option<NonZeroU32>,
+    next: Option<NonZeroU32>,
 }
 
 #[derive(Clone, Copy, PartialEq)]
 enum NodeKind {
-    Element { name_length: usize, complete: bool },
+    Element {
+        /// Bytes of the name's namespace prefix, its colon included.
+        prefix: u32,
+        /// Bytes of the whole name.
+        name_length: u32,
+        complete: bool,
+    },
     Text,
     Character(char),
 }
@@ -87,18 +97,16 @@ impl<'t> Document<'t> {
             let end = reader.buffer_position() as usize;
             match event {
                 Event::Start(tag) => {
-                    let name_length = tag.name().into_inner().len();
-                    let at =
-                        self.add_element(start, end, start + 1..end - 1, name_length, &open)?;
+                    let name = tag.name().into_inner();
+                    let at = self.add_element(start..end, start + 1..end - 1, name, &open)?;
                     open.push(at);
                     if open.len() > DEEPEST {
                         return Err(self.too_deep(start, end));
                     }
                 }
                 Event::Empty(tag) => {
-                    let name_length = tag.name().into_inner().len();
-                    let at =
-                        self.add_element(start, end, start + 1..end - 2, name_length, &open)?;
+                    let name = tag.name().into_inner();
+                    let at = self.add_element(start..end, start + 1..end - 2, name, &open)?;
                     self.close(at, end);
                 }
                 Event::End(_) => {
@@ -140,19 +148,20 @@ impl<'t> Document<'t> {
 
     fn add_element(
         &mut self,
-        start: usize,
-        end: usize,
+        whole: Range<usize>,
         inner: Range<usize>,
-        name_length: usize,
+        name: &str,
         open: &[usize],
     ) -> Result<usize, Box<Diagnostic>> {
+        let colon = name.bytes().rposition(|byte| byte == b':');
         let kind = NodeKind::Element {
-            name_length,
+            prefix: narrow(colon.map_or(0, |colon| colon + 1)),
+            name_length: narrow(name.len()),
             complete: false,
         };
         let inner = inner.start..inner.end.max(inner.start);
         let tag = self.source.text.get(inner.clone()).unwrap_or_default();
-        let mut attributes = Attributes::of(tag, name_length);
+        let mut attributes = Attributes::of(tag, name.len());
         while attributes.next().is_some() {}
         if let Some(at) = attributes.fault {
             let place = self.source.base + inner.start + at;
@@ -165,12 +174,13 @@ impl<'t> Document<'t> {
                 .help("what stood before this place is read; export the file again"),
             ));
         }
-        Ok(self.add(kind, start..end, inner, open))
+        Ok(self.add(kind, whole, inner, open))
     }
 
     fn add_text(&mut self, range: Range<usize>, open: &[usize]) {
         let text = self.source.text.get(range.clone()).unwrap_or_default();
-        if !text.trim().is_empty() && !open.is_empty() {
+        // Most texts are the blanks between tags, and those are ASCII.
+        if !text.trim_ascii_start().trim().is_empty() && !open.is_empty() {
             self.add(NodeKind::Text, range.clone(), range, open);
         }
     }
@@ -185,10 +195,10 @@ impl<'t> Document<'t> {
         let at = self.nodes.len();
         self.nodes.push(Node {
             kind,
-            start: whole.start,
-            end: whole.end,
-            inner_start: inner.start,
-            inner_end: inner.end,
+            start: narrow(whole.start),
+            end: narrow(whole.end),
+            inner_start: narrow(inner.start),
+            inner_end: narrow(inner.end),
             first_child: None,
             last_child: None,
             next: None,
@@ -196,28 +206,36 @@ impl<'t> Document<'t> {
         let Some(&parent) = open.last() else {
             return at;
         };
-        let before = self.nodes[parent].last_child.replace(at);
+        let child = NonZeroU32::new(narrow(at));
+        let before = std::mem::replace(&mut self.nodes[parent].last_child, child);
         match before {
-            Some(sibling) => self.nodes[sibling].next = Some(at),
-            None => self.nodes[parent].first_child = Some(at),
+            Some(sibling) => self.nodes[wide(sibling)].next = child,
+            None => self.nodes[parent].first_child = child,
         }
         at
     }
 
     fn close(&mut self, at: usize, end: usize) {
         let node = &mut self.nodes[at];
-        node.end = end;
+        node.end = narrow(end);
         if let NodeKind::Element { complete, .. } = &mut node.kind {
             *complete = true;
         }
     }
 
+    /// The tag's whole name.
     fn name_at(&self, at: usize) -> &'t str {
         let node = &self.nodes[at];
-        let NodeKind::Element { name_length, .. } = node.kind else {
-            return "";
-        };
-        let range = node.inner_start..node.inner_start + name_length;
+        match node.kind {
+            NodeKind::Element { name_length, .. } => {
+                self.text_at(node.inner_start, node.inner_start + name_length)
+            }
+            _ => "",
+        }
+    }
+
+    fn text_at(&self, start: u32, end: u32) -> &'t str {
+        let range = start as usize..end as usize;
         self.source.text.get(range).unwrap_or_default()
     }
 
@@ -240,7 +258,7 @@ impl<'t> Document<'t> {
             "the file ends inside the element `{}`, which began here",
             self.name_at(element)
         );
-        let tag = self.source.span(node.start, node.inner_end + 1);
+        let tag = self.source.span(node.start as usize, node.inner_end as usize + 1);
         Box::new(
             Diagnostic::new(codes::CUT_SHORT, tag, message)
                 .help("copy or export the file again; what was complete is read"),
@@ -281,6 +299,16 @@ impl Node {
     fn is_element(&self) -> bool {
         matches!(self.kind, NodeKind::Element { .. })
     }
+}
+
+/// A place in a text, or in its list of nodes, which is shorter. No reader is
+/// given a text that 32 bits cannot count.
+fn narrow(place: usize) -> u32 {
+    u32::try_from(place).unwrap_or(u32::MAX)
+}
+
+fn wide(node: NonZeroU32) -> usize {
+    node.get() as usize
 }
 
 /// The character that `&amp;` or `&#38;` stands for.
