@@ -1,31 +1,44 @@
-fn main() {
-    for n in [1000, 3000, 10000] {
-        let text = bench::plant::plant(n);
-        let t = std::time::Instant::now();
-        let r = ladder::read(text.as_bytes());
-        let read = t.elapsed();
-        let b = logic::Budget::default();
-        let t = std::time::Instant::now();
-        let mut c = recovery::conditions::conditions(&r.program, &b);
-        let tc = t.elapsed();
-        let t = std::time::Instant::now();
-        let s = recovery::states::states(&c, &b);
-        let ts = t.elapsed();
-        let t = std::time::Instant::now();
-        let regs = recovery::registers::registers(&r.program, &mut c, &b);
-        let tr = t.elapsed();
-        let t = std::time::Instant::now();
-        let su = recovery::successions::ranked(&c, &s, &regs, &b);
-        let tsu = t.elapsed();
-        let t = std::time::Instant::now();
-        let g = recovery::groups::groups(&c, &s, &regs, &su);
-        let tg = t.elapsed();
-        println!(
-            "{n}: {} bytes read {read:?} cond {tc:?} states {ts:?} regs {tr:?} succ {tsu:?} ({}) groups {tg:?} ({}) peak {:?}",
-            text.len(),
-            su.len(),
-            g.len(),
-            bench::memory::peak()
-        );
+//! Prints the table of ratios that `docs/benchmarks.md` explains.
+//!
+//! `cargo run --release -p gradus-bench` measures everything. A word after
+//! `--` measures one part: `reading`, `successions`, `programs`, `memory`,
+//! `diagrams`.
+
+use std::io::Write as _;
+
+mod table;
+
+use table::{Row, diagrams, memory, programs, reading, successions};
+
+/// What the program prints when it runs as its own child to be measured.
+const CHILD: &str = "peak-of";
+
+type Part = (&'static str, fn() -> Vec<Row>);
+
+const PARTS: [Part; 5] = [
+    ("reading", reading::rows),
+    ("successions", successions::rows),
+    ("programs", programs::rows),
+    ("memory", memory::rows),
+    ("diagrams", diagrams::rows),
+];
+
+fn main() -> std::io::Result<()> {
+    let words: Vec<String> = std::env::args().skip(1).collect();
+    let mut out = std::io::stdout();
+    if let [child, rungs] = &words[..]
+        && child == CHILD
+    {
+        let peak = memory::of_this_process(rungs.parse().unwrap_or_default());
+        return writeln!(out, "{}", peak.unwrap_or_default());
     }
+    writeln!(out, "{}", table::HEAD)?;
+    for (name, rows) in PARTS {
+        if words.is_empty() || words.iter().any(|word| word == name) {
+            for row in rows() {
+                writeln!(out, "{row}")?;
+            }
+        }
+    }
+    Ok(())
 }

@@ -1,38 +1,42 @@
 //! Times that can be compared: taken in turn, several times, the median of
 //! each.
 
+use std::hint::black_box;
 use std::time::{Duration, Instant};
 
 /// A round lasts at least this long for each contender, so that the clock's
 /// own grain does not show.
 const LEAST: Duration = Duration::from_millis(4);
 
-/// The median time of one call of each contender.
+/// The time that `work` takes, and not that to drop what it gives.
+pub fn time<T>(work: impl FnOnce() -> T) -> Duration {
+    let start = Instant::now();
+    let result = black_box(work());
+    let time = start.elapsed();
+    drop(result);
+    time
+}
+
+/// The median time of each contender, which measures itself with [`time`].
 ///
 /// In every round each has its turn, so that what else the machine does falls
-/// on all of them alike. Calls that are over sooner than the clock can tell
-/// are repeated within the turn.
-pub fn in_turn(rounds: usize, contenders: &mut [&mut dyn FnMut()]) -> Vec<Duration> {
-    let repeats: Vec<u32> = contenders.iter_mut().map(|it| repeats(*it)).collect();
+/// on all of them alike. Contenders that are done sooner than the clock can
+/// tell are repeated within their turn.
+pub fn in_turn(rounds: usize, contenders: &mut [&mut dyn FnMut() -> Duration]) -> Vec<Duration> {
+    let repeats: Vec<u32> = contenders.iter_mut().map(|it| repeats(it())).collect();
     let mut times = vec![Vec::with_capacity(rounds); contenders.len()];
     for _ in 0..rounds {
         for (at, contender) in contenders.iter_mut().enumerate() {
-            let start = Instant::now();
-            for _ in 0..repeats[at] {
-                contender();
-            }
-            times[at].push(start.elapsed() / repeats[at]);
+            let turn: Duration = (0..repeats[at]).map(|_| contender()).sum();
+            times[at].push(turn / repeats[at]);
         }
     }
     times.into_iter().map(median).collect()
 }
 
-/// How often a contender is called in a turn. Warms it up, too.
-fn repeats(contender: &mut dyn FnMut()) -> u32 {
-    let start = Instant::now();
-    contender();
-    let once = start.elapsed().max(Duration::from_nanos(20));
-    let times = LEAST.as_nanos() / once.as_nanos();
+/// How often a contender that takes `once` is called in a turn.
+fn repeats(once: Duration) -> u32 {
+    let times = LEAST.as_nanos() / once.as_nanos().max(20);
     u32::try_from(times).unwrap_or(u32::MAX).max(1)
 }
 
@@ -57,7 +61,7 @@ mod tests {
             let turns = &turns;
             move || {
                 turns.borrow_mut().push(name);
-                std::thread::sleep(LEAST);
+                LEAST
             }
         };
         let times = in_turn(2, &mut [&mut long('a'), &mut long('b')]);

@@ -2,9 +2,8 @@
 
 use std::fmt::Write;
 
-/// A program of two rungs, each a series of branches over the same
-/// `variables` contacts, with a seal-in and closed contacts here and there, as
-/// real rungs are.
+/// A program of two rungs, each a series of branches over the same even number
+/// of `variables` contacts, some of them closed, with a seal-in.
 ///
 /// What ends the one and what starts the other share every variable, the worst
 /// case of a rule that tries each assignment of the shared ones. The pairing
@@ -13,15 +12,12 @@ use std::fmt::Write;
 pub fn pair(variables: usize) -> String {
     let mut text = String::new();
     for (coil, offset) in [("p", 0), ("f", 1)] {
-        let mut rung = format!("rung: ({coil} + x{offset})");
-        for first in (1..variables).step_by(2) {
-            let sign = if first % 4 == offset { "/" } else { "" };
-            let (a, b) = (first + offset, (first + 1 + offset) % variables);
-            let _ = match a < variables {
-                true if b != offset => write!(rung, " * ({sign}x{a} + x{b})"),
-                true => write!(rung, " * {sign}x{a}"),
-                false => Ok(()),
-            };
+        let mut rung = format!("rung: ({coil} + x{offset} + x{})", offset + 1);
+        for branch in 1..variables / 2 {
+            let sign = if branch % 2 == offset { "/" } else { "" };
+            let first = (2 * branch + offset) % variables;
+            let second = (2 * branch + 1 + offset) % variables;
+            let _ = write!(rung, " * ({sign}x{first} + x{second})");
         }
         let _ = writeln!(text, "{rung} -> {coil}");
     }

@@ -306,7 +306,8 @@ fn surroundings(project: &Project<'_>, units: &[Parsed<'_, '_>], names: &Names) 
                 let operand = text.get(range).unwrap_or_default();
                 // An alias may stand for a preset; it is written without a dot.
                 let may_be_preset = if operand.contains('.') {
-                    operand.get(operand.len().saturating_sub(4)..)
+                    operand
+                        .get(operand.len().saturating_sub(4)..)
                         .is_some_and(|end| end.eq_ignore_ascii_case(".pre"))
                 } else {
                     names.has_aliases()

@@ -45,14 +45,21 @@ impl<'t> Iterator for Attributes<'t> {
 /// reader of a large file does more often.
 fn attribute(tag: &str, start: usize) -> Option<(&str, Range<usize>)> {
     let bytes = tag.as_bytes();
-    let length = bytes.get(start..)?.iter().position(|&byte| ends_name(byte))?;
-    let name = tag.get(start..start + length).filter(|name| !name.is_empty())?;
+    let length = bytes
+        .get(start..)?
+        .iter()
+        .position(|&byte| ends_name(byte))?;
+    let name = tag
+        .get(start..start + length)
+        .filter(|name| !name.is_empty())?;
     let equals = skip_blanks(bytes, start + length);
     if bytes.get(equals) != Some(&b'=') {
         return None;
     }
     let open = skip_blanks(bytes, equals + 1);
-    let quote = *bytes.get(open).filter(|byte| matches!(byte, b'"' | b'\''))?;
+    let quote = *bytes
+        .get(open)
+        .filter(|byte| matches!(byte, b'"' | b'\''))?;
     let value = open + 1;
     let length = bytes.get(value..)?.iter().position(|&byte| byte == quote)?;
     Some((name, value..value + length))
@@ -65,5 +72,8 @@ fn ends_name(byte: u8) -> bool {
 /// The first byte at or after `at` that is no blank, as XML counts blanks.
 fn skip_blanks(bytes: &[u8], at: usize) -> usize {
     let rest = bytes.get(at..).unwrap_or_default();
-    at + rest.iter().take_while(|byte| byte.is_ascii_whitespace()).count()
+    at + rest
+        .iter()
+        .take_while(|byte| byte.is_ascii_whitespace())
+        .count()
 }

@@ -42,8 +42,8 @@ impl<'d, 't> Element<'d, 't> {
             return None;
         };
         let tag = self.inner();
-        let (_, value) =
-            Attributes::of(tag, name_length as usize).find(|(key, _)| key.eq_ignore_ascii_case(name))?;
+        let (_, value) = Attributes::of(tag, name_length as usize)
+            .find(|(key, _)| key.eq_ignore_ascii_case(name))?;
         let value = tag.get(value)?;
         Some(quick_xml::escape::unescape(value).unwrap_or(Cow::Borrowed(value)))
     }

@@ -258,7 +258,9 @@ impl<'t> Document<'t> {
             "the file ends inside the element `{}`, which began here",
             self.name_at(element)
         );
-        let tag = self.source.span(node.start as usize, node.inner_end as usize + 1);
+        let tag = self
+            .source
+            .span(node.start as usize, node.inner_end as usize + 1);
         Box::new(
             Diagnostic::new(codes::CUT_SHORT, tag, message)
                 .help("copy or export the file again; what was complete is read"),
