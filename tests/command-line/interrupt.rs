@@ -3,7 +3,7 @@
 use std::process::{Command, Stdio};
 use std::time::Duration;
 
-use end_to_end::Ended;
+use end_to_end::{Ended, Gradus, Terminal};
 
 use crate::gradus;
 
@@ -28,4 +28,53 @@ fn ctrl_c_ends_a_command_that_waits_for_its_input_with_130() {
     let ended = Ended::of(child);
     drop(input);
     assert_eq!((ended.status, ended.answer.as_str()), (Some(130), ""));
+}
+
+/// A ladder about which the published method thinks for years: it tries all
+/// values of forty variables that two coils share.
+fn endless() -> Gradus {
+    let gradus = gradus();
+    let inputs: Vec<String> = (0..40).map(|number| format!("x{number}")).collect();
+    let all = inputs.join(" * ");
+    gradus.write(
+        "endless.ladder",
+        format!("rung: {all} -> a\nrung: {all} -> b\n"),
+    );
+    gradus
+}
+
+const ENDLESS: [&str; 4] = ["suggest", "--method", "cubes", "endless.ladder"];
+
+#[test]
+fn ctrl_c_ends_a_long_computation_with_130_and_no_answer() {
+    let gradus = endless();
+    let child = gradus
+        .command(&ENDLESS)
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the executable");
+    std::thread::sleep(Duration::from_millis(300));
+    let sent = Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status();
+    assert!(sent.expect("`kill`").success());
+    let ended = Ended::of(child);
+    assert_eq!((ended.status, ended.answer.as_str()), (Some(130), ""));
+    assert_eq!(ended.aside, "", "no progress but on a terminal");
+}
+
+#[test]
+fn a_terminal_shows_what_takes_long_and_clears_it_in_the_end() {
+    let gradus = endless();
+    let mut terminal = Terminal::start(gradus.command(&ENDLESS));
+    terminal.wait_for("Comparing endless.ladder");
+    let sent = Command::new("kill")
+        .args(["-INT", &terminal.id().to_string()])
+        .status();
+    assert!(sent.expect("`kill`").success());
+    let (status, shown) = terminal.end();
+    assert_eq!(status, Some(130));
+    // The code that erases a line.
+    assert!(shown.trim_end().ends_with("\u{1b}[2K"), "{shown:?}");
 }

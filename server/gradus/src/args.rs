@@ -19,6 +19,8 @@ its name.
 
 Examples:
   gradus check line3.L5X         what is wrong or odd in a program
+  gradus suggest line3.L5X       which state follows which
+  gradus convert line3.L5X       the spec beside it, line3.grafcet
   gradus explain G2002           what a finding means and how to mend it
   gradus check --help            everything about one command";
 

@@ -109,28 +109,14 @@ pub struct Accepted {
     pub(super) ends: BTreeSet<AtomId>,
     /// Arcs of registers that were rejected, as their states are spelt.
     pub(super) rejected: BTreeSet<(Name, Name)>,
-    /// Names in decisions that the ladder does not have.
-    pub unknown: Vec<Name>,
 }
 
 impl Accepted {
     /// Reads `decisions` against the states of a ladder.
     pub fn new(analysis: &Analysis<'_>, decisions: &[Decision]) -> Self {
         let mut accepted = Self::default();
-        let is_value = |name: &Name| {
-            analysis
-                .registers
-                .iter()
-                .any(|r| r.states.iter().any(|s| r.state_name(s.value) == *name))
-        };
         for decision in decisions {
-            let mut atom = |name: &Name| {
-                let found = analysis.states.find(name).map(|state| state.atom);
-                if found.is_none() && !is_value(name) {
-                    accepted.unknown.push(name.clone());
-                }
-                found
-            };
+            let atom = |name: &Name| analysis.states.find(name).map(|state| state.atom);
             match &decision.verdict {
                 Verdict::Accept { from, to } => {
                     let from = atom(from);

@@ -23,7 +23,7 @@ pub fn block(coil: &Coil<'_>, paint: Paint) -> String {
     }
     out.push('\n');
     for write in &coil.writes {
-        out += &place(write, coil.writes.len() > 1);
+        out += &place(write, coil);
     }
     if coil.part != Part::TooLarge {
         out += &format!("  {}\n", part(coil.part));
@@ -44,7 +44,7 @@ pub fn block(coil: &Coil<'_>, paint: Paint) -> String {
 }
 
 /// `  rung 3 of Main: set coil, when a*b`.
-fn place(write: &Drawn<'_>, one_of_several: bool) -> String {
+fn place(write: &Drawn<'_>, coil: &Coil<'_>) -> String {
     let kind = match write.kind {
         CoilKind::Plain => "coil",
         CoilKind::Negated => "negated coil",
@@ -56,7 +56,7 @@ fn place(write: &Drawn<'_>, one_of_several: bool) -> String {
     let scope = printable(&write.routine.scope);
     let of = if scope.is_empty() { "" } else { " of " };
     let mut line = format!("  rung {}{of}{scope}: {kind}", write.rung.number);
-    if one_of_several || write.kind != CoilKind::Plain {
+    if coil.writes.len() > 1 || write.kind != CoilKind::Plain {
         let guard = write.guard.as_deref().unwrap_or(TOO_LARGE);
         let start = line.chars().count() + ", when ".len();
         line += &format!(", when {}", broken(&printable(guard), start));
