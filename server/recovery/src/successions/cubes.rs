@@ -10,19 +10,12 @@
 
 use logic::{AtomId, Budget, Function, Literal};
 
-use super::{Evidence, Kind, Succession, name};
+use super::{Evidence, Kind, Succession, coils, name};
 use crate::conditions::Conditions;
 
 /// The pairs of coils that the paper's algorithm suggests.
 pub fn cubes(conditions: &Conditions, budget: &Budget) -> Vec<Succession> {
-    let coils: Vec<(AtomId, Function, Function)> = conditions
-        .variables
-        .iter()
-        .filter_map(|variable| {
-            let activation = variable.next.clone().ok()?;
-            Some((variable.atom, activation, variable.deactivation().ok()?))
-        })
-        .collect();
+    let coils = coils(conditions);
     let mut found = Vec::new();
     for (from, _, deactivation) in &coils {
         for (to, activation, _) in &coils {

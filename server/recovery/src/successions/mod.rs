@@ -18,7 +18,7 @@ pub use cubes::cubes;
 pub(crate) use handover::{handed_over, started_apart};
 pub use possible::possible;
 
-use crate::conditions::Conditions;
+use crate::conditions::{Conditions, Variable};
 use crate::registers::Register;
 use crate::states::States;
 
@@ -117,6 +117,17 @@ pub fn ranked(
             }),
     );
     found
+}
+
+/// Every coil whose conditions fit the budget, with its activation and its
+/// deactivation: what the paper's rule compares, whether the coil holds a
+/// state or not.
+fn coils(conditions: &Conditions) -> Vec<(AtomId, Function, Function)> {
+    let coil = |variable: &Variable| {
+        let activation = variable.next.clone().ok()?;
+        Some((variable.atom, activation, variable.deactivation().ok()?))
+    };
+    conditions.variables.iter().filter_map(coil).collect()
 }
 
 fn name(conditions: &Conditions, atom: AtomId) -> Name {

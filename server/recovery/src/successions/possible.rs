@@ -12,21 +12,14 @@ use logic::{AtomId, Budget, Function};
 
 use super::handover::Handover;
 use super::shared::{ByAtom, COMMON};
-use super::{Evidence, Kind, MOST_PAIRS, Succession, name};
+use super::{Evidence, Kind, MOST_PAIRS, Succession, coils, name};
 use crate::conditions::Conditions;
 use crate::states::{State, States};
 
 /// Every pair of coils for which the rule holds, whatever they hold: the
 /// paper lets all rungs take part.
 pub fn possible(conditions: &Conditions, budget: &Budget) -> Vec<Succession> {
-    let coils: Vec<(AtomId, Function, Function)> = conditions
-        .variables
-        .iter()
-        .filter_map(|variable| {
-            let activation = variable.next.clone().ok()?;
-            Some((variable.atom, activation, variable.deactivation().ok()?))
-        })
-        .collect();
+    let coils = coils(conditions);
     let starts = ByAtom::new(coils.iter().map(|(_, activation, _)| activation));
     let mut found = Vec::new();
     let mut tried = 0;
