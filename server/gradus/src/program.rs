@@ -7,6 +7,7 @@
 //! counts in the exit status.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use ladder::{Format, Program};
 use logic::{Budget, Name};
@@ -26,7 +27,7 @@ pub struct Ladder {
     /// Where it came from, or `-`.
     pub path: PathBuf,
     /// What was understood of it.
-    pub program: Program,
+    pub program: Arc<Program>,
     /// Errors in its text.
     errors: usize,
 }
@@ -88,7 +89,7 @@ fn trouble(name: &str, errors: usize, paint: Paint) -> String {
 }
 
 /// All that is recovered from `ladder`; `None` if somebody pressed Ctrl-C.
-pub fn analyse<'l>(ladder: &'l Ladder, budget: &Budget) -> Option<Analysis<'l>> {
+pub fn analyse<'l>(ladder: &'l Ladder, budget: &Budget) -> Option<Analysis> {
     let _progress = progress("Analysing", ladder);
     let analysis = recovery::analyse(&ladder.program, budget);
     (!budget.cancel.is_cancelled()).then_some(analysis)
@@ -109,7 +110,7 @@ pub fn progress(activity: &'static str, ladder: &Ladder) -> Progress {
 
 /// What the comments of the ladder say about a state, which may be a value of
 /// a register.
-pub fn description(analysis: &Analysis<'_>, state: &str) -> Option<Name> {
+pub fn description(analysis: &Analysis, state: &str) -> Option<Name> {
     let title = || {
         analysis.registers.iter().find_map(|register| {
             let mut values = register.states.iter();

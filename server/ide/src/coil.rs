@@ -89,7 +89,7 @@ impl Coil<'_> {
 }
 
 /// All coils, in the order of the source.
-pub fn coils<'a>(analysis: &'a Analysis<'_>, budget: &Budget) -> Vec<Coil<'a>> {
+pub fn coils<'a>(analysis: &'a Analysis, budget: &Budget) -> Vec<Coil<'a>> {
     let variables = analysis.conditions.variables.iter();
     let mut coils: Vec<Coil<'a>> = variables
         .map(|variable| coil(variable, analysis, budget))
@@ -99,7 +99,7 @@ pub fn coils<'a>(analysis: &'a Analysis<'_>, budget: &Budget) -> Vec<Coil<'a>> {
     coils
 }
 
-fn coil<'a>(variable: &'a Variable, analysis: &'a Analysis<'_>, budget: &Budget) -> Coil<'a> {
+fn coil<'a>(variable: &'a Variable, analysis: &'a Analysis, budget: &Budget) -> Coil<'a> {
     let conditions = &analysis.conditions;
     let declared = analysis.program.declarations.find(&variable.name);
     let next = variable.next.as_ref().ok();
@@ -137,7 +137,7 @@ fn four(next: &Function, atom: AtomId, conditions: &Conditions, budget: &Budget)
     })
 }
 
-fn part(variable: &Variable, analysis: &Analysis<'_>, budget: &Budget) -> Part {
+fn part(variable: &Variable, analysis: &Analysis, budget: &Budget) -> Part {
     let atom = variable.atom;
     if analysis.states.state(atom).is_some() {
         Part::State
@@ -158,7 +158,7 @@ fn part(variable: &Variable, analysis: &Analysis<'_>, budget: &Budget) -> Part {
     }
 }
 
-fn interlocks(variable: &Variable, analysis: &Analysis<'_>) -> Vec<Name> {
+fn interlocks(variable: &Variable, analysis: &Analysis) -> Vec<Name> {
     let closed = variable.closed_contacts.iter();
     closed
         .filter_map(|atom| analysis.states.state(*atom))
@@ -168,11 +168,7 @@ fn interlocks(variable: &Variable, analysis: &Analysis<'_>) -> Vec<Name> {
 
 /// The coils that write a variable. One in a routine that is called from
 /// several places is drawn once, and solved when any of them calls.
-fn writes<'a>(
-    variable: &'a Variable,
-    analysis: &'a Analysis<'_>,
-    budget: &Budget,
-) -> Vec<Drawn<'a>> {
+fn writes<'a>(variable: &'a Variable, analysis: &'a Analysis, budget: &Budget) -> Vec<Drawn<'a>> {
     let conditions = &analysis.conditions;
     let mut solved: BTreeMap<Place, Option<Function>> = BTreeMap::new();
     for write in &variable.writes {

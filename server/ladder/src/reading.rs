@@ -1,3 +1,5 @@
+use std::sync::Arc;
+
 use quick_xml::Reader;
 use quick_xml::events::Event;
 use source::{Diagnostic, Span, codes};
@@ -8,7 +10,7 @@ use crate::{Format, Program, ascii, plcopen, rockwell, text};
 #[derive(Clone, Debug)]
 pub struct Reading {
     /// The program, holding all that could be understood.
-    pub program: Program,
+    pub program: Arc<Program>,
     /// Findings about the text, in the order of their places.
     pub diagnostics: Vec<Diagnostic>,
 }
@@ -17,7 +19,7 @@ impl Reading {
     /// A reading that understood nothing, and says why.
     pub(crate) fn nothing(diagnostic: Diagnostic) -> Self {
         Self {
-            program: Program::empty(Format::Unknown),
+            program: Program::empty(Format::Unknown).into(),
             diagnostics: vec![diagnostic],
         }
     }

@@ -1,4 +1,5 @@
 use std::collections::HashSet;
+use std::sync::Arc;
 
 use ladder::{Class, Program, Role};
 use logic::{AtomId, Budget, Function, Name};
@@ -11,9 +12,9 @@ use crate::successions::{Succession, ranked};
 
 /// All that is recovered from a ladder before anybody decides anything.
 #[derive(Clone, Debug)]
-pub struct Analysis<'p> {
+pub struct Analysis {
     /// The ladder.
-    pub program: &'p Program,
+    pub program: Arc<Program>,
     /// The conditions of its coils.
     pub conditions: Conditions,
     /// Its states.
@@ -31,14 +32,14 @@ pub struct Analysis<'p> {
 
 /// Recovers everything from `program`. When `budget` is cancelled the answer
 /// comes early and is not complete.
-pub fn analyse<'p>(program: &'p Program, budget: &Budget) -> Analysis<'p> {
+pub fn analyse(program: &Arc<Program>, budget: &Budget) -> Analysis {
     let mut conditions = conditions(program, budget);
     let states = states(&conditions, budget);
     let registers = registers(program, &mut conditions, budget);
     let successions = ranked(&conditions, &states, &registers, budget);
     let groups = groups(&conditions, &states, &registers, &successions);
     Analysis {
-        program,
+        program: Arc::clone(program),
         read: atoms_read(&conditions),
         conditions,
         states,
@@ -68,7 +69,7 @@ fn atoms_read(conditions: &Conditions) -> HashSet<AtomId> {
         .collect()
 }
 
-impl Analysis<'_> {
+impl Analysis {
     /// Whether the plant sees the variable: it is declared an output, has an
     /// output's address, or no rung reads it, so that whoever does is outside.
     pub fn is_output(&self, variable: &Variable) -> bool {

@@ -1,5 +1,7 @@
 //! Conversion, and the spec beside the ladder as its only state.
 
+use std::sync::Arc;
+
 use grafcet::{Decision, Spec, Verdict, rewrite, write};
 use logic::{Budget, Name, notation};
 use recovery::conversion::{Accept, Departure, decide, spec, spec_findings, update};
@@ -11,12 +13,12 @@ const FORMS: [&str; 3] = [
     "fixtures/neutralization/neutralization.xml",
 ];
 
-fn program(path: &str) -> ladder::Program {
+fn program(path: &str) -> Arc<ladder::Program> {
     let bytes = std::fs::read(end_to_end::path(path)).expect("a readable fixture");
     ladder::read(&bytes).program
 }
 
-fn converted(program: &ladder::Program, accept: &Accept) -> Spec {
+fn converted(program: &Arc<ladder::Program>, accept: &Accept) -> Spec {
     let budget = Budget::default();
     let analysis = recovery::analyse(program, &budget);
     let decisions = decide(&analysis, &[], accept);

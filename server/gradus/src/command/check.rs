@@ -182,7 +182,7 @@ pub fn run(args: &Args, io: &mut Io) -> std::io::Result<Status> {
 fn check(
     inputs: Inputs,
     least: Severity,
-    against: Option<&Analysis<'_>>,
+    against: Option<&Analysis>,
     budget: &Budget,
     io: &mut Io,
 ) -> Option<Checked> {
@@ -250,7 +250,7 @@ fn is_of_no_interest(candidate: &Candidate, found: &[Diagnostic]) -> bool {
 fn examine(
     path: &Path,
     text: &[u8],
-    against: Option<&Analysis<'_>>,
+    against: Option<&Analysis>,
     budget: &Budget,
 ) -> Vec<Diagnostic> {
     match (language::of(text), against) {

@@ -195,11 +195,7 @@ fn open(args: &Args, io: &mut Io) -> std::io::Result<Option<SpecFile>> {
 
 /// Adds the decisions that the command line asks for. The error says which
 /// cannot be.
-fn decide(
-    args: &Args,
-    analysis: &Analysis<'_>,
-    conversion: &mut Conversion<'_>,
-) -> Result<(), String> {
+fn decide(args: &Args, analysis: &Analysis, conversion: &mut Conversion<'_>) -> Result<(), String> {
     let mut decisions = conversion.decisions.clone();
     if let Some(wanted) = &args.accept {
         decisions = accept::apply(wanted, analysis, decisions)?;

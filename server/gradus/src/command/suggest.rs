@@ -82,7 +82,7 @@ enum Method {
 struct Found<'a> {
     states: Vec<Name>,
     suggestions: Vec<Succession>,
-    analysis: &'a Analysis<'a>,
+    analysis: &'a Analysis,
 }
 
 /// Answers which state may follow which.
@@ -111,7 +111,7 @@ pub fn run(args: &Args, io: &mut Io) -> std::io::Result<Status> {
     Ok(ladder.status())
 }
 
-fn find<'a>(method: Method, analysis: &'a Analysis<'a>, budget: &Budget) -> Found<'a> {
+fn find<'a>(method: Method, analysis: &'a Analysis, budget: &Budget) -> Found<'a> {
     let conditions = &analysis.conditions;
     let (states, suggestions) = match method {
         Method::Ranked => (states(analysis), analysis.successions.clone()),
@@ -126,7 +126,7 @@ fn find<'a>(method: Method, analysis: &'a Analysis<'a>, budget: &Budget) -> Foun
 }
 
 /// The states, those of registers last.
-fn states(analysis: &Analysis<'_>) -> Vec<Name> {
+fn states(analysis: &Analysis) -> Vec<Name> {
     let bits = analysis
         .states
         .states
@@ -140,7 +140,7 @@ fn states(analysis: &Analysis<'_>) -> Vec<Name> {
 }
 
 /// Every coil: the published method lets all rungs take part.
-fn coils(analysis: &Analysis<'_>) -> Vec<Name> {
+fn coils(analysis: &Analysis) -> Vec<Name> {
     let variables = analysis.conditions.variables.iter();
     variables.map(|variable| variable.name.clone()).collect()
 }

@@ -71,7 +71,7 @@ pub(crate) fn read(source: Source<'_>) -> Reading {
         span: source.span(0, source.text.len()),
     });
     Reading {
-        program,
+        program: program.into(),
         diagnostics,
     }
 }

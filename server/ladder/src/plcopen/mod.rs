@@ -92,7 +92,7 @@ pub(crate) fn read(source: Source<'_>) -> Reading {
     program.charts = project.charts;
     program.declarations = declarations;
     Reading {
-        program,
+        program: program.into(),
         diagnostics,
     }
 }

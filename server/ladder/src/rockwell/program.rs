@@ -66,7 +66,8 @@ pub(super) fn program(mut project: Project<'_>) -> Reading {
             declarations,
             routines,
             charts,
-        },
+        }
+        .into(),
         diagnostics,
     }
 }

@@ -122,7 +122,7 @@ pub(crate) fn read(source: Source<'_>) -> Reading {
         .iter_mut()
         .for_each(|finding| move_to_file(finding, source));
     Reading {
-        program,
+        program: program.into(),
         diagnostics: findings,
     }
 }

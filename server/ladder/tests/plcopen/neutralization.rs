@@ -58,7 +58,8 @@ fn the_neutralization_ladder_means_what_its_table_says() {
 #[test]
 fn its_variables_are_the_plants_by_their_addresses() {
     let text = std::fs::read(repository("fixtures/neutralization/neutralization.xml")).unwrap();
-    let declarations = ladder::read(&text).program.declarations;
+    let program = ladder::read(&text).program;
+    let declarations = &program.declarations;
     let names: Vec<_> = declarations.iter().map(|d| &*d.name).collect();
     assert_eq!(names, VARIABLES);
     for declaration in declarations.iter() {

@@ -5,6 +5,7 @@
 
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use ladder::{ContactKind, Element, ElementKind, Gate, Network, Operand, Program, Value};
 use source::{LineIndex, Span};
@@ -18,7 +19,7 @@ pub fn fixture(name: &str) -> String {
 }
 
 /// The program that `text` holds; it must be read as a `.ladder` text.
-pub fn program(text: &str) -> Program {
+pub fn program(text: &str) -> Arc<Program> {
     let program = ladder::read(text.as_bytes()).program;
     assert_eq!(program.format, ladder::Format::Ladder, "{text}");
     program

@@ -13,7 +13,7 @@ use crate::conditions::{Variable, WriteKind};
 /// The variables that belong to the program itself. Those of a block's
 /// definition belong to its instances; they count only in a file that holds
 /// nothing but definitions.
-pub(super) fn own_variables<'a>(analysis: &'a Analysis<'_>) -> impl Iterator<Item = &'a Variable> {
+pub(super) fn own_variables<'a>(analysis: &'a Analysis) -> impl Iterator<Item = &'a Variable> {
     let all_defined = analysis
         .conditions
         .variables
@@ -28,7 +28,7 @@ pub(super) fn own_variables<'a>(analysis: &'a Analysis<'_>) -> impl Iterator<Ite
 
 /// Adds the actions of all outputs to `chart`.
 pub(super) fn add(
-    analysis: &Analysis<'_>,
+    analysis: &Analysis,
     sequences: &[Plan],
     memories: &[Memory],
     names: &mut Names,
@@ -82,7 +82,7 @@ pub(super) fn add(
 #[allow(clippy::too_many_arguments)]
 fn add_conditional(
     variable: &Variable,
-    analysis: &Analysis<'_>,
+    analysis: &Analysis,
     sequences: &[Plan],
     names: &mut Names,
     wording: &Wording<'_>,

@@ -19,7 +19,7 @@ use logic::{Budget, Name};
 use crate::Analysis;
 
 /// What the ladder gave when the rules of `existing` were made.
-pub(super) fn base(analysis: &Analysis<'_>, existing: &Spec, budget: &Budget) -> Spec {
+pub(super) fn base(analysis: &Analysis, existing: &Spec, budget: &Budget) -> Spec {
     let held = super::spec(analysis, &existing.decisions, budget);
     let shown = shown_decisions(analysis, existing);
     if shown == existing.decisions {
@@ -59,7 +59,7 @@ fn sorted(names: &[Name]) -> Vec<Name> {
 
 /// The decisions of `existing`, less those that its chart does not show, and
 /// with those that it shows without them.
-fn shown_decisions(analysis: &Analysis<'_>, existing: &Spec) -> Vec<Decision> {
+fn shown_decisions(analysis: &Analysis, existing: &Spec) -> Vec<Decision> {
     let shown = Shown::new(&existing.grafcet.chart);
     let is_bit = |name: &Name| analysis.states.find(name).is_some();
     let mut decisions = Vec::new();

@@ -23,7 +23,7 @@ pub enum Accept {
 
 /// Decisions that accept what `accept` says, added to those already made. What
 /// was accepted, rejected or decided before stays as it is.
-pub fn decide(analysis: &Analysis<'_>, made: &[Decision], accept: &Accept) -> Vec<Decision> {
+pub fn decide(analysis: &Analysis, made: &[Decision], accept: &Accept) -> Vec<Decision> {
     let mut decisions = made.to_vec();
     let mut decided: BTreeSet<(Name, Name)> = made.iter().flat_map(pairs).collect();
     let mut add = |from: &Name, to: Vec<Name>| {
@@ -113,7 +113,7 @@ pub struct Accepted {
 
 impl Accepted {
     /// Reads `decisions` against the states of a ladder.
-    pub fn new(analysis: &Analysis<'_>, decisions: &[Decision]) -> Self {
+    pub fn new(analysis: &Analysis, decisions: &[Decision]) -> Self {
         let mut accepted = Self::default();
         for decision in decisions {
             let atom = |name: &Name| analysis.states.find(name).map(|state| state.atom);

@@ -16,7 +16,7 @@ const MOST_FIXES: usize = 50;
 /// more, decisions about states that it never had: each at its place in
 /// `text`, the text that `reading` was made of.
 pub fn spec_findings(
-    analysis: &Analysis<'_>,
+    analysis: &Analysis,
     reading: &Reading,
     text: &str,
     budget: &Budget,
@@ -123,7 +123,7 @@ fn declaration(places: &Places, step: Option<&Name>) -> Span {
 }
 
 /// Names of states in decisions that the ladder does not have.
-fn unknown_decisions(analysis: &Analysis<'_>, reading: &Reading) -> Vec<Diagnostic> {
+fn unknown_decisions(analysis: &Analysis, reading: &Reading) -> Vec<Diagnostic> {
     let values = register_values(analysis);
     let is_known = |name: &Name| values.contains(name) || analysis.states.find(name).is_some();
     state_mentions(reading)
@@ -140,7 +140,7 @@ fn unknown_decisions(analysis: &Analysis<'_>, reading: &Reading) -> Vec<Diagnost
 }
 
 /// States that steps stand for and that the ladder does not have.
-fn gone_states(analysis: &Analysis<'_>, reading: &Reading) -> Vec<Diagnostic> {
+fn gone_states(analysis: &Analysis, reading: &Reading) -> Vec<Diagnostic> {
     let values = register_values(analysis);
     let is_known = |name: &Name| values.contains(name) || analysis.conditions.find(name).is_some();
     state_mentions(reading)
@@ -168,7 +168,7 @@ fn is_in_decision(mention: &Mention, reading: &Reading) -> bool {
     last.is_some_and(|span| mention.span.start < span.end)
 }
 
-fn register_values(analysis: &Analysis<'_>) -> BTreeSet<Name> {
+fn register_values(analysis: &Analysis) -> BTreeSet<Name> {
     let registers = analysis.registers.iter();
     registers
         .flat_map(|register| register.states.iter().map(|s| register.state_name(s.value)))

@@ -9,7 +9,7 @@ use crate::Analysis;
 
 /// Declares every variable that the chart mentions: what its actions write as
 /// outputs or internal variables, everything else as inputs.
-pub(super) fn declare(analysis: &Analysis<'_>, grafcet: &mut Grafcet) {
+pub(super) fn declare(analysis: &Analysis, grafcet: &mut Grafcet) {
     let steps: BTreeSet<&Name> = grafcet.chart.steps.iter().map(|step| &step.name).collect();
     let mut mentioned: BTreeSet<Name> = BTreeSet::new();
     let mut mention = |expr: &Expr| names_in(expr, &mut mentioned);

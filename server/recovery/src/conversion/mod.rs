@@ -32,7 +32,7 @@ use naming::Names;
 use wording::Wording;
 
 /// The spec that the ladder and the decisions give.
-pub fn spec(analysis: &Analysis<'_>, decisions: &[Decision], budget: &Budget) -> Spec {
+pub fn spec(analysis: &Analysis, decisions: &[Decision], budget: &Budget) -> Spec {
     let accepted = Accepted::new(analysis, decisions);
     let mut names = Names::new(analysis);
     let mut wording = Wording::new(analysis, budget);

@@ -18,7 +18,7 @@ pub(super) struct Names {
 impl Names {
     /// With every variable of the program taken, so that no step is called
     /// like one.
-    pub(super) fn new(analysis: &Analysis<'_>) -> Self {
+    pub(super) fn new(analysis: &Analysis) -> Self {
         let variables = analysis
             .conditions
             .atoms

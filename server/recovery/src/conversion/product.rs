@@ -22,7 +22,7 @@ pub(super) struct Memory {
 /// The memories that no accepted succession ties to a sequence, with their
 /// steps named.
 pub(super) fn memories(
-    analysis: &Analysis<'_>,
+    analysis: &Analysis,
     accepted: &Accepted,
     names: &mut Names,
     wording: &mut Wording<'_>,
@@ -64,7 +64,7 @@ fn is_coil(variable: &Variable) -> bool {
 /// Draws the memories. A change that can never happen has no transition.
 pub(super) fn draw(
     memories: &[Memory],
-    analysis: &Analysis<'_>,
+    analysis: &Analysis,
     names: &mut Names,
     wording: &Wording<'_>,
     chart: &mut Chart,

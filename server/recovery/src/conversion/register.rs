@@ -9,7 +9,7 @@ use crate::Analysis;
 
 /// Names the steps of every register: `Index_10` for value 10 of
 /// `Milling_1.Index`.
-pub(super) fn name_steps(analysis: &Analysis<'_>, names: &mut Names, wording: &mut Wording<'_>) {
+pub(super) fn name_steps(analysis: &Analysis, names: &mut Names, wording: &mut Wording<'_>) {
     for register in &analysis.registers {
         for state in &register.states {
             let step = names.step(&format!("{}_{}", short(&register.name), state.value));
@@ -21,7 +21,7 @@ pub(super) fn name_steps(analysis: &Analysis<'_>, names: &mut Names, wording: &m
 /// Draws the registers' charts. Their arcs are exact and wait for no
 /// decision; one that was rejected is left out.
 pub(super) fn draw(
-    analysis: &Analysis<'_>,
+    analysis: &Analysis,
     accepted: &Accepted,
     names: &mut Names,
     wording: &Wording<'_>,

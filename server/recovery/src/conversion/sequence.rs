@@ -53,7 +53,7 @@ impl Plan {
     /// Draws the plan into `chart`.
     pub(super) fn draw(
         &self,
-        analysis: &Analysis<'_>,
+        analysis: &Analysis,
         names: &mut Names,
         wording: &Wording<'_>,
         chart: &mut Chart,
@@ -87,7 +87,7 @@ impl Plan {
 /// A plan for every set of states that accepted successions tie together, in
 /// the order of their first states.
 pub(super) fn plans(
-    analysis: &Analysis<'_>,
+    analysis: &Analysis,
     accepted: &Accepted,
     names: &mut Names,
     wording: &mut Wording<'_>,
@@ -125,7 +125,7 @@ fn components(accepted: &Accepted) -> Vec<BTreeSet<AtomId>> {
 }
 
 struct Builder<'b> {
-    analysis: &'b Analysis<'b>,
+    analysis: &'b Analysis,
     accepted: &'b Accepted,
     names: &'b mut Names,
     budget: &'b Budget,
@@ -137,7 +137,7 @@ struct Builder<'b> {
 
 impl<'b> Builder<'b> {
     fn new(
-        analysis: &'b Analysis<'b>,
+        analysis: &'b Analysis,
         accepted: &'b Accepted,
         members: BTreeSet<AtomId>,
         names: &'b mut Names,

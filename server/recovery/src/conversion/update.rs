@@ -52,7 +52,7 @@ pub enum Departure {
 
 /// Brings `existing` up to `decisions`; see the module's page.
 pub fn update(
-    analysis: &Analysis<'_>,
+    analysis: &Analysis,
     existing: &Spec,
     decisions: &[Decision],
     budget: &Budget,

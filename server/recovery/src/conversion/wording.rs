@@ -11,7 +11,7 @@ use crate::registers::Register;
 
 /// Which steps stand for which states, and how to say conditions over them.
 pub(super) struct Wording<'a> {
-    analysis: &'a Analysis<'a>,
+    analysis: &'a Analysis,
     budget: Budget,
     /// Steps of a state held in one bit; several where it is reached in
     /// different ways.
@@ -25,7 +25,7 @@ pub(super) struct Wording<'a> {
 const MOST_PRODUCTS: usize = 48;
 
 impl<'a> Wording<'a> {
-    pub(super) fn new(analysis: &'a Analysis<'a>, budget: &Budget) -> Self {
+    pub(super) fn new(analysis: &'a Analysis, budget: &Budget) -> Self {
         Self {
             analysis,
             budget: Budget {

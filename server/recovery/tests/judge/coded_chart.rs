@@ -7,6 +7,7 @@
 //! lines that know these three routines and nothing else.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 use grafcet::{
     Action, ActionKind, Chart, Difference, Effect, Grafcet, Spec, Step, Transition, Trigger,
@@ -128,12 +129,12 @@ fn actions(text: &str) -> BTreeSet<(String, String, String)> {
         .collect()
 }
 
-fn program(text: &str) -> Program {
+fn program(text: &str) -> Arc<Program> {
     ladder::read(text.as_bytes()).program
 }
 
 /// The spec with every handover accepted.
-fn accepted(analysis: &Analysis<'_>) -> Spec {
+fn accepted(analysis: &Analysis) -> Spec {
     let budget = Budget::default();
     let decisions = decide(analysis, &[], &Accept::Handovers);
     spec(analysis, &decisions, &budget)

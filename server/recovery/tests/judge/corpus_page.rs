@@ -100,11 +100,11 @@ fn acts(kind: &ElementKind) -> bool {
     steers || !kind.writes().is_empty()
 }
 
-fn sequences<'a>(analysis: &'a Analysis<'_>) -> impl Iterator<Item = &'a Group> {
+fn sequences<'a>(analysis: &'a Analysis) -> impl Iterator<Item = &'a Group> {
     analysis.groups.iter().filter(|group| group.sequence)
 }
 
-fn counts(file: &RealFile, analysis: &Analysis<'_>) -> Counts {
+fn counts(file: &RealFile, analysis: &Analysis) -> Counts {
     let program = &file.reading.program;
     let of_rungs: Vec<Guards> = program.rungs().map(|(_, rung)| guards(rung)).collect();
     let number = |wanted: Guards| of_rungs.iter().filter(|it| **it == wanted).count();

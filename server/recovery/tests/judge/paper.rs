@@ -3,6 +3,7 @@
 //! the same ladder in three formats.
 
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
 use ladder::{Format, Program};
 use logic::{Budget, Function, notation};
@@ -42,7 +43,7 @@ const HIDDEN_BY_ORDER: [Row; 4] = [
 const MERELY_POSSIBLE: [Row; 3] = [("v2", "h"), ("v4", "v2 h m"), ("h", "v2 v4 m")];
 
 /// The case study in every format that the fixtures have it in.
-fn programs() -> Vec<Program> {
+fn programs() -> Vec<Arc<Program>> {
     let formats = [
         ("ladder", Format::Ladder),
         ("L5X", Format::L5x),

@@ -3,6 +3,7 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use ladder::{Format, Program};
 use logic::Budget;
@@ -17,7 +18,7 @@ use crate::language;
 
 /// What there is to say about a spec that holds `text`, given what is known of
 /// its ladder.
-pub fn about_spec(text: &str, ladder: Option<&Analysis<'_>>, budget: &Budget) -> Vec<Diagnostic> {
+pub fn about_spec(text: &str, ladder: Option<&Analysis>, budget: &Budget) -> Vec<Diagnostic> {
     let reading = grafcet::read(text);
     let mut found = match ladder {
         Some(analysis) => spec_findings(analysis, &reading, text, budget),
@@ -30,7 +31,7 @@ pub fn about_spec(text: &str, ladder: Option<&Analysis<'_>>, budget: &Budget) ->
 
 /// The ladder beside the spec at `path`: of the files that differ from it only
 /// by an ending under which ladders are kept, the first that holds one.
-pub fn ladder_beside(path: &Path) -> Option<Program> {
+pub fn ladder_beside(path: &Path) -> Option<Arc<Program>> {
     candidates(path).into_iter().find_map(|path| {
         let bytes = file::read(&path).ok()?;
         if let language::File::Spec(_) = language::of(&bytes) {

@@ -88,7 +88,7 @@ fn plain(text: &str) -> String {
 /// accepted.
 pub fn apply(
     wanted: &Wanted,
-    analysis: &Analysis<'_>,
+    analysis: &Analysis,
     mut decisions: Vec<Decision>,
 ) -> Result<Vec<Decision>, String> {
     let by_evidence = |accept| recovery::conversion::decide(analysis, &decisions, &accept);
@@ -117,7 +117,7 @@ pub fn apply(
 
 /// The values of a register follow each other as its writes say, and nothing
 /// else can be decided about them.
-fn check_values(from: &Name, to: &[Name], analysis: &Analysis<'_>) -> Result<(), String> {
+fn check_values(from: &Name, to: &[Name], analysis: &Analysis) -> Result<(), String> {
     let is_value = |name: &Name| analysis.states.find(name).is_none();
     for to in to {
         if from == to {

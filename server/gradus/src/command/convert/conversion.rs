@@ -16,7 +16,7 @@ use ide::legible;
 /// A conversion under way.
 pub struct Conversion<'a> {
     /// What is known of the ladder.
-    pub analysis: &'a Analysis<'a>,
+    pub analysis: &'a Analysis,
     /// The spec as it was last read or written.
     pub file: SpecFile,
     /// The decisions that the file holds.
@@ -37,7 +37,7 @@ enum Renewing {
 
 impl<'a> Conversion<'a> {
     /// With the decisions that `file` holds.
-    pub fn begin(analysis: &'a Analysis<'a>, file: SpecFile, budget: &'a Budget) -> Self {
+    pub fn begin(analysis: &'a Analysis, file: SpecFile, budget: &'a Budget) -> Self {
         let existing = grafcet::read(&file.text).spec;
         Self {
             analysis,

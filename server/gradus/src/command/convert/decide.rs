@@ -12,7 +12,7 @@ use crate::report::printable;
 
 /// The state that somebody calls `text`: by its name, or by its address. The
 /// error names some that there are.
-pub fn state(text: &str, analysis: &Analysis<'_>) -> Result<Name, String> {
+pub fn state(text: &str, analysis: &Analysis) -> Result<Name, String> {
     if let Some(state) = analysis.states.find(text) {
         return Ok(state.name.clone());
     }
@@ -39,13 +39,13 @@ pub fn state(text: &str, analysis: &Analysis<'_>) -> Result<Name, String> {
     })
 }
 
-fn names<'a>(analysis: &'a Analysis<'_>) -> impl Iterator<Item = &'a str> {
+fn names<'a>(analysis: &'a Analysis) -> impl Iterator<Item = &'a str> {
     let groups = analysis.groups.iter();
     groups.flat_map(|group| group.states.iter().map(|name| &**name))
 }
 
 /// A value of a register: `Seq=10`.
-fn value(text: &str, analysis: &Analysis<'_>) -> Option<Name> {
+fn value(text: &str, analysis: &Analysis) -> Option<Name> {
     let (register, value) = text.split_once('=')?;
     let value: i64 = value.trim().parse().ok()?;
     let mut registers = analysis.registers.iter();
@@ -125,7 +125,7 @@ pub fn reject(decisions: &mut Vec<Decision>, from: &Name, to: &Name) {
 /// before.
 pub fn start_in(
     names: &[String],
-    analysis: &Analysis<'_>,
+    analysis: &Analysis,
     decisions: &mut Vec<Decision>,
 ) -> Result<(), String> {
     let mut states = Vec::new();
@@ -145,7 +145,7 @@ pub fn start_in(
 }
 
 /// The same for states that are known to be some.
-pub fn start_in_states(states: &[Name], analysis: &Analysis<'_>, decisions: &mut Vec<Decision>) {
+pub fn start_in_states(states: &[Name], analysis: &Analysis, decisions: &mut Vec<Decision>) {
     let group_of = |name: &Name| {
         let mut groups = analysis.groups.iter();
         groups.position(|group| group.states.contains(name))
