@@ -15,7 +15,6 @@ mod file;
 mod input;
 mod interrupt;
 mod io;
-mod language;
 mod program;
 mod progress;
 mod report;

@@ -17,10 +17,10 @@ use source::Severity;
 use crate::colour::Paint;
 use crate::input::{self, numbered};
 use crate::io::Io;
-use crate::language;
 use crate::progress::Progress;
 use crate::report::{self, Findings, printable};
 use crate::status::Status;
+use ide::language;
 
 /// A ladder as it was read.
 pub struct Ladder {

@@ -1,6 +1,6 @@
 use std::collections::BTreeMap;
 
-use ladder::{CoilKind, Routine, Rung};
+use ::ladder::{CoilKind, Routine, Rung};
 use logic::{AtomId, Budget, Function, Name};
 use recovery::Analysis;
 use recovery::conditions::{Conditions, Place, Variable, WriteKind};
@@ -99,7 +99,8 @@ pub fn coils<'a>(analysis: &'a Analysis, budget: &Budget) -> Vec<Coil<'a>> {
     coils
 }
 
-fn coil<'a>(variable: &'a Variable, analysis: &'a Analysis, budget: &Budget) -> Coil<'a> {
+/// What is known of one variable that coils write.
+pub fn coil<'a>(variable: &'a Variable, analysis: &'a Analysis, budget: &Budget) -> Coil<'a> {
     let conditions = &analysis.conditions;
     let declared = analysis.program.declarations.find(&variable.name);
     let next = variable.next.as_ref().ok();

@@ -2,14 +2,25 @@
 //!
 //! Every command and every editor asks here, so that they say the same. An
 //! answer holds names, texts and places in bytes; it knows no protocol, no
-//! terminal and no file. One thing to be shown is one file with one entry:
+//! terminal and no file. What is looked at is a [`Ladder`] and the [`Spec`]
+//! beside it. One thing to be shown is one file with one entry:
 //!
 //! * [`coils`]: every coil with all that is known of it, in words;
 //! * [`said`] and [`legible`]: a condition in the notation, past a size that a
-//!   person can read not at all.
+//!   person can read not at all;
+//! * [`language`]: whether a text is a ladder or a spec;
+//! * [`decide`]: what a new decision does to those made before.
 
 mod coil;
 mod condition;
+pub mod decide;
+mod ladder;
+pub mod language;
+mod names;
+mod spec;
 
-pub use coil::{Coil, Drawn, Part, Said, coils, kind_word};
+pub use coil::{Coil, Drawn, Part, Said, coil, coils, kind_word};
 pub use condition::{legible, said};
+pub use ladder::Ladder;
+pub use names::{Mention, Names, Usage, element};
+pub use spec::Spec;

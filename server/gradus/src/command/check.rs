@@ -14,11 +14,11 @@ use crate::colour::Paint;
 use crate::file::Unreadable;
 use crate::input::{self, Candidate, Inputs, Origin, numbered};
 use crate::io::Io;
-use crate::language;
 use crate::program;
 use crate::progress::Progress;
 use crate::report::{self, Findings};
 use crate::status::Status;
+use ide::language;
 
 mod against;
 

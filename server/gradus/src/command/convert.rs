@@ -19,9 +19,9 @@ use crate::status::Status;
 
 mod accept;
 mod conversion;
-mod decide;
 mod interview;
 mod json;
+mod named;
 mod outcome;
 mod spec_file;
 mod text;
@@ -200,7 +200,7 @@ fn decide(args: &Args, analysis: &Analysis, conversion: &mut Conversion<'_>) -> 
     if let Some(wanted) = &args.accept {
         decisions = accept::apply(wanted, analysis, decisions)?;
     }
-    decide::start_in(&args.initial, analysis, &mut decisions)?;
+    named::start_in(&args.initial, analysis, &mut decisions)?;
     conversion.decisions = decisions;
     if args.renew {
         conversion.renew();

@@ -14,9 +14,9 @@ use crate::diff;
 use crate::file::{self, Unreadable};
 use crate::input::{self, Candidate, Origin, numbered};
 use crate::io::Io;
-use crate::language;
 use crate::report;
 use crate::status::Status;
+use ide::language;
 
 const DETAILS: &str = "\
 A folder stands for the .ladder and .grafcet files below it. A file that would

@@ -11,9 +11,9 @@ use source::{Diagnostic, Severity};
 use crate::file;
 use crate::input::{self, numbered};
 use crate::io::{Io, is_standard_input};
-use crate::language;
 use crate::report::{self, printable};
 use crate::status::Status;
+use ide::language;
 
 const DETAILS: &str = "\
 JSON:

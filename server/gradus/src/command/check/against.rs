@@ -14,7 +14,7 @@ use source::Diagnostic;
 use crate::file;
 use crate::input;
 use crate::io::is_standard_input;
-use crate::language;
+use ide::language;
 
 /// What there is to say about a spec that holds `text`, given what is known of
 /// its ladder.

@@ -1,11 +1,12 @@
 //! `--accept`: a word, or a list of pairs.
 
 use grafcet::Decision;
+use ide::decide;
 use logic::Name;
 use recovery::Analysis;
 use recovery::conversion::Accept;
 
-use super::decide;
+use super::named;
 use crate::report::printable;
 
 /// What to accept, as the command line says it.
@@ -98,10 +99,10 @@ pub fn apply(
         Wanted::All => Ok(by_evidence(Accept::All)),
         Wanted::These(pairs) => {
             for (from, to) in pairs {
-                let from = decide::state(from, analysis)?;
+                let from = named::state(from, analysis)?;
                 let to: Vec<Name> = to
                     .iter()
-                    .map(|name| decide::state(name, analysis))
+                    .map(|name| named::state(name, analysis))
                     .collect::<Result<_, _>>()?;
                 check_values(&from, &to, analysis)?;
                 if analysis.states.find(&from).is_some() {

@@ -7,11 +7,12 @@
 
 use std::collections::BTreeSet;
 
+use ide::decide;
 use logic::Name;
 use recovery::successions::{Evidence, Kind, Succession};
 
 use super::conversion::Conversion;
-use super::decide;
+use super::named;
 use crate::condition::broken;
 use crate::input::numbered;
 use crate::io::Io;
@@ -91,7 +92,7 @@ pub fn hold(conversion: &mut Conversion<'_>, io: &mut Io) -> std::io::Result<Sta
             Answer::Initial => {
                 let analysis = conversion.analysis;
                 let states = std::slice::from_ref(&pair.0);
-                decide::start_in_states(states, analysis, &mut conversion.decisions);
+                decide::start_in(states, analysis, &mut conversion.decisions);
             }
             Answer::Later => {
                 later.insert(pair);
@@ -209,7 +210,7 @@ fn company(
         let named: Result<Vec<Name>, String> = line
             .split([',', '&', ' '])
             .filter(|name| !name.is_empty())
-            .map(|name| decide::state(name, conversion.analysis))
+            .map(|name| named::state(name, conversion.analysis))
             .collect();
         match named {
             Ok(named) => {

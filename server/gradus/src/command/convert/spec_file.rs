@@ -8,8 +8,8 @@ use source::codes;
 use crate::colour::Paint;
 use crate::file::{self, Unreadable};
 use crate::input;
-use crate::language;
 use crate::report::{self, printable};
+use ide::language;
 
 /// A spec and where it is.
 pub struct SpecFile {

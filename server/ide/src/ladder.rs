@@ -1,0 +1,72 @@
+use std::sync::Arc;
+
+use ::ladder::{Format, Program, Reading, Routine, Rung};
+use logic::Budget;
+use recovery::conditions::Place;
+use recovery::{Analysis, analyse};
+use source::Diagnostic;
+
+use crate::Names;
+
+/// A ladder that somebody looks at: its text, what was read from it and what
+/// was recovered.
+#[derive(Debug)]
+pub struct Ladder {
+    /// The text, as the file or the editor has it.
+    pub text: Arc<str>,
+    /// Findings about the text.
+    pub diagnostics: Vec<Diagnostic>,
+    /// What was recovered; it holds the program too.
+    pub analysis: Analysis,
+    /// Where its names stand.
+    pub names: Names,
+}
+
+impl Ladder {
+    /// Reads and analyses `text`, whatever it holds. When `budget` is cancelled
+    /// the answer comes early and is not complete.
+    pub fn read(text: Arc<str>, budget: &Budget) -> Self {
+        let Reading {
+            program,
+            diagnostics,
+        } = ::ladder::read(text.as_bytes());
+        Self {
+            names: Names::new(&program, &text),
+            analysis: analyse(&program, budget),
+            text,
+            diagnostics,
+        }
+    }
+
+    /// The program.
+    pub fn program(&self) -> &Program {
+        &self.analysis.program
+    }
+
+    /// Whether the text is a ladder of any known form.
+    pub fn is_known(&self) -> bool {
+        self.program().format != Format::Unknown
+    }
+
+    /// The rung that holds a place, with its routine.
+    pub fn rung(&self, place: Place) -> Option<(&Routine, &Rung)> {
+        let routine = self.program().routines.get(place.routine)?;
+        Some((routine, routine.rungs.get(place.rung)?))
+    }
+
+    /// Everything there is to say about the ladder, in the order of the places:
+    /// about its text and about its meaning.
+    pub fn findings(&self, budget: &Budget) -> Vec<Diagnostic> {
+        let conditions = &self.analysis.conditions;
+        let mut found = self.diagnostics.clone();
+        if self.is_known() {
+            found.extend(recovery::findings::findings(
+                self.program(),
+                conditions,
+                budget,
+            ));
+        }
+        found.sort_by_key(|finding| (finding.span, finding.code));
+        found
+    }
+}
