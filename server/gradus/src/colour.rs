@@ -21,7 +21,6 @@ pub struct Paint {
 
 impl Paint {
     /// Leaves text as it is.
-    #[cfg(test)]
     pub const PLAIN: Self = Self { coloured: false };
 
     /// Colours as `when` says, for an output that is a terminal or is not.

@@ -11,6 +11,9 @@ use crate::io::is_standard_input;
 /// only the content tells.
 pub const ENDINGS: &[&str] = &["ladder", "l5x", "l5k", "xml", "txt", "grafcet"];
 
+/// Those under which ladders are kept.
+pub const LADDER_ENDINGS: &[&str] = ENDINGS.split_at(5).0;
+
 /// A file to look at.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Candidate {

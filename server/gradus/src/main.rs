@@ -15,6 +15,7 @@ mod file;
 mod input;
 mod interrupt;
 mod io;
+mod lsp;
 mod program;
 mod progress;
 mod report;

@@ -89,7 +89,7 @@ fn trouble(name: &str, errors: usize, paint: Paint) -> String {
 }
 
 /// All that is recovered from `ladder`; `None` if somebody pressed Ctrl-C.
-pub fn analyse<'l>(ladder: &'l Ladder, budget: &Budget) -> Option<Analysis> {
+pub fn analyse(ladder: &Ladder, budget: &Budget) -> Option<Analysis> {
     let _progress = progress("Analysing", ladder);
     let analysis = recovery::analyse(&ladder.program, budget);
     (!budget.cancel.is_cancelled()).then_some(analysis)

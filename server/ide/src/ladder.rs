@@ -1,8 +1,10 @@
+use std::collections::HashSet;
 use std::sync::Arc;
 
 use ::ladder::{Format, Program, Reading, Routine, Rung};
-use logic::Budget;
-use recovery::conditions::Place;
+use logic::{Budget, Function};
+use petgraph::graph::NodeIndex;
+use recovery::conditions::{Place, Walk, powers};
 use recovery::{Analysis, analyse};
 use source::Diagnostic;
 
@@ -52,6 +54,43 @@ impl Ladder {
     pub fn rung(&self, place: Place) -> Option<(&Routine, &Rung)> {
         let routine = self.program().routines.get(place.routine)?;
         Some((routine, routine.rungs.get(place.rung)?))
+    }
+
+    /// The rung at the byte `offset`, as a place without an element. Elements of
+    /// one rung may stand among those of another in XML; then it is the
+    /// shortest that holds the byte.
+    pub fn rung_at(&self, offset: usize) -> Option<Place> {
+        let routines = self.program().routines.iter().enumerate();
+        let rungs = routines.flat_map(|(routine, it)| {
+            let rungs = it.rungs.iter().enumerate();
+            rungs.map(move |(rung, it)| {
+                (
+                    Place {
+                        routine,
+                        rung,
+                        element: 0,
+                    },
+                    it.span,
+                )
+            })
+        });
+        let holding = rungs.filter(|(_, span)| span.touches(offset));
+        let shortest = holding.min_by_key(|(_, span)| span.len());
+        shortest.map(|(place, _)| place)
+    }
+
+    /// The condition under which the element at `place` gets power; `None` past
+    /// the budget.
+    pub fn power_at(&self, place: Place, budget: &Budget) -> Option<Function> {
+        let (_, rung) = self.rung(place)?;
+        let mut atoms = self.analysis.conditions.atoms.clone();
+        let mut walk = Walk {
+            atoms: &mut atoms,
+            opaque: &mut HashSet::new(),
+            budget,
+        };
+        let powers = powers(&rung.network, &mut walk);
+        powers.at(NodeIndex::new(place.element)).ok().cloned()
     }
 
     /// Everything there is to say about the ladder, in the order of the places:

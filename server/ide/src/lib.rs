@@ -14,6 +14,9 @@
 mod coil;
 mod condition;
 pub mod decide;
+mod decided;
+mod describe;
+mod hover;
 mod ladder;
 pub mod language;
 mod names;
@@ -21,6 +24,8 @@ mod spec;
 
 pub use coil::{Coil, Drawn, Part, Said, coil, coils, kind_word};
 pub use condition::{legible, said};
+pub use decided::{Decided, Standing};
+pub use hover::{Block, Hover, hover_in_ladder, hover_in_spec};
 pub use ladder::Ladder;
 pub use names::{Mention, Names, Usage, element};
 pub use spec::Spec;

@@ -4,7 +4,9 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use logic::Budget;
+use recovery::Analysis;
 
+use crate::colour::Paint;
 use crate::input::numbered;
 use crate::io::Io;
 use crate::program::{self, Ladder};
@@ -105,6 +107,13 @@ pub fn run(args: &Args, io: &mut Io) -> std::io::Result<Status> {
     }
     io.aside(&sum(&ladder, &coils))?;
     Ok(ladder.status())
+}
+
+/// What the command says of all coils, without colours.
+pub fn plain_text(analysis: &Analysis, budget: &Budget) -> String {
+    let coils = ide::coils(analysis, budget);
+    let blocks = coils.iter().map(|coil| text::block(coil, Paint::PLAIN));
+    blocks.collect()
 }
 
 /// The budget with `nodes`, and as many products as the usual one has in

@@ -6,11 +6,12 @@
 
 mod check;
 mod completions;
-mod conditions;
+pub mod conditions;
 mod convert;
 mod explain;
 mod fmt;
 mod generate;
+mod lsp;
 mod manual;
 mod suggest;
 
@@ -26,6 +27,7 @@ pub enum Command {
     Convert(convert::Args),
     Generate(generate::Args),
     Fmt(fmt::Args),
+    Lsp(lsp::Args),
     Explain(explain::Args),
     Completions(completions::Args),
     Manual(manual::Args),
@@ -40,6 +42,7 @@ pub fn run(command: &Command, io: &mut Io) -> std::io::Result<Status> {
         Command::Convert(args) => convert::run(args, io),
         Command::Generate(args) => generate::run(args, io),
         Command::Fmt(args) => fmt::run(args, io),
+        Command::Lsp(args) => lsp::run(args, io),
         Command::Explain(args) => explain::run(args, io),
         Command::Completions(args) => completions::run(args, io),
         Command::Manual(args) => manual::run(args, io),

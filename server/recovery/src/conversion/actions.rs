@@ -13,7 +13,7 @@ use crate::conditions::{Variable, WriteKind};
 /// The variables that belong to the program itself. Those of a block's
 /// definition belong to its instances; they count only in a file that holds
 /// nothing but definitions.
-pub(super) fn own_variables<'a>(analysis: &'a Analysis) -> impl Iterator<Item = &'a Variable> {
+pub(super) fn own_variables(analysis: &Analysis) -> impl Iterator<Item = &Variable> {
     let all_defined = analysis
         .conditions
         .variables

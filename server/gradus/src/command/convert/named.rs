@@ -36,7 +36,7 @@ pub fn state(text: &str, analysis: &Analysis) -> Result<Name, String> {
     })
 }
 
-fn names<'a>(analysis: &'a Analysis) -> impl Iterator<Item = &'a str> {
+fn names(analysis: &Analysis) -> impl Iterator<Item = &str> {
     let groups = analysis.groups.iter();
     groups.flat_map(|group| group.states.iter().map(|name| &**name))
 }

@@ -6,6 +6,7 @@
 //! notation has no words for is listed, never left out in silence.
 
 mod cuts;
+mod draw;
 mod legs;
 mod order;
 mod output;
@@ -18,6 +19,7 @@ use source::Span;
 use super::layout::format;
 use crate::{Class, Declaration, ElementKind, Network, Program, Role, Routine, Rung};
 use cuts::{DEEPEST, TooTangled};
+pub use draw::draw;
 use legs::{Driven, Leg, legs};
 
 /// A program as text.

@@ -1,0 +1,87 @@
+//! Files that no editor has open.
+
+use std::collections::HashMap;
+use std::fs;
+use std::path::Path;
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::SystemTime;
+
+use super::document::Document;
+use super::key::FileKey;
+
+/// Files as they were last read. Reading one again costs a look at its size and
+/// time only.
+#[derive(Debug, Default)]
+pub struct Disk(Mutex<HashMap<FileKey, (Stamp, Arc<Document>)>>);
+
+/// What tells whether a file has changed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Stamp {
+    modified: Option<SystemTime>,
+    length: u64,
+}
+
+/// Files that are kept: those beside open ones, and some more.
+const KEPT: usize = 64;
+
+impl Disk {
+    /// The file of a key, if it is one, is text, and has no more than `limit`
+    /// MiB.
+    pub fn read(&self, key: &FileKey, limit: u64) -> Option<Arc<Document>> {
+        let path = key.path()?;
+        let stamp = stamp(path).filter(|stamp| stamp.length <= limit << 20)?;
+        if let Some((known, document)) = self.lock().get(key)
+            && *known == stamp
+        {
+            return Some(Arc::clone(document));
+        }
+        let text = String::from_utf8(fs::read(path).ok()?).ok()?;
+        let document = Arc::new(Document::new(key.uri()?, "", None, &text));
+        let mut files = self.lock();
+        if files.len() >= KEPT {
+            files.clear();
+        }
+        files.insert(key.clone(), (stamp, Arc::clone(&document)));
+        Some(document)
+    }
+
+    /// Files that differ from `key` only by their ending, which is one of
+    /// `endings`.
+    pub fn beside(&self, key: &FileKey, endings: &[&str]) -> Vec<FileKey> {
+        let Some(path) = key.path() else {
+            return Vec::new();
+        };
+        let entries = path.parent().and_then(|folder| fs::read_dir(folder).ok());
+        let mut found: Vec<_> = entries
+            .into_iter()
+            .flatten()
+            .flatten()
+            .map(|entry| entry.path())
+            .filter(|other| other.file_stem() == path.file_stem())
+            .filter(|other| {
+                let ending = other.extension().map(|it| it.to_ascii_lowercase());
+                ending.is_some_and(|it| endings.iter().any(|known| it == *known))
+            })
+            .map(|other| FileKey::of_path(&other))
+            .collect();
+        found.sort();
+        found
+    }
+
+    /// Forgets a file that has changed.
+    pub fn forget(&self, key: &FileKey) {
+        self.lock().remove(key);
+    }
+
+    fn lock(&self) -> std::sync::MutexGuard<'_, HashMap<FileKey, (Stamp, Arc<Document>)>> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+fn stamp(path: &Path) -> Option<Stamp> {
+    let found = fs::metadata(path).ok()?;
+    found.is_file().then(|| Stamp {
+        modified: found.modified().ok(),
+        length: found.len(),
+    })
+}

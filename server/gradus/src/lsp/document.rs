@@ -1,0 +1,228 @@
+//! A document as it is at one moment.
+//!
+//! A document never changes: an edit makes the next one. So whoever works on
+//! one, on whatever thread, keeps what it began with, and sees from the
+//! document's own flag that a newer one is there. What a text holds is worked
+//! out once, by the first who asks, while the others wait.
+
+use std::sync::{Arc, OnceLock};
+
+use ide::language;
+use ide::{Ladder, Spec};
+use logic::{Budget, Cancel};
+use ropey::Rope;
+use source::Span;
+use tower_lsp::ls_types::{Location, Position, Range, TextDocumentContentChangeEvent, Uri};
+
+use super::key::FileKey;
+use super::position::Encoding;
+
+/// A document.
+#[derive(Debug)]
+pub struct Document {
+    /// The address that the client knows it by.
+    pub uri: Uri,
+    /// What tells it from others.
+    pub key: FileKey,
+    /// The client's number for this state of it; `None` for a file that is not
+    /// open.
+    pub version: Option<i32>,
+    /// Its text.
+    pub rope: Rope,
+    language_id: String,
+    contents: OnceLock<Contents>,
+    outdated: Cancel,
+}
+
+/// What a document holds.
+#[derive(Clone, Debug)]
+pub enum Contents {
+    /// A ladder of a known form, or a text that should be one.
+    Ladder(Arc<Ladder>),
+    /// A spec.
+    Spec(Arc<Spec>),
+    /// Something that is none of ours.
+    Foreign,
+}
+
+impl Document {
+    /// A document that was just opened, or read.
+    pub fn new(uri: Uri, language_id: &str, version: Option<i32>, text: &str) -> Self {
+        Self {
+            key: FileKey::of(&uri),
+            uri,
+            version,
+            rope: Rope::from_str(text),
+            language_id: language_id.to_owned(),
+            contents: OnceLock::new(),
+            outdated: Cancel::default(),
+        }
+    }
+
+    /// The document after `changes`, made one after the other. This one is
+    /// outdated from now on.
+    pub fn edited(
+        &self,
+        version: i32,
+        changes: Vec<TextDocumentContentChangeEvent>,
+        encoding: Encoding,
+    ) -> Self {
+        self.outdate();
+        let mut rope = self.rope.clone();
+        for change in changes {
+            match change.range {
+                Some(range) => replace(&mut rope, range, &change.text, encoding),
+                None => rope = Rope::from_str(&change.text),
+            }
+        }
+        Self {
+            uri: self.uri.clone(),
+            key: self.key.clone(),
+            version: Some(version),
+            rope,
+            language_id: self.language_id.clone(),
+            contents: OnceLock::new(),
+            outdated: Cancel::default(),
+        }
+    }
+
+    /// Tells whoever works on it that a newer one is there.
+    pub fn outdate(&self) {
+        self.outdated.cancel();
+    }
+
+    /// Whether a newer one is there.
+    pub fn is_outdated(&self) -> bool {
+        self.outdated.is_cancelled()
+    }
+
+    /// A budget that ends when the document is outdated.
+    pub fn budget(&self) -> Budget {
+        Budget {
+            cancel: self.outdated.clone(),
+            ..Budget::default()
+        }
+    }
+
+    /// What it holds. May take long, so never on the thread of the protocol.
+    pub fn contents(&self) -> &Contents {
+        self.contents.get_or_init(|| {
+            let text: Arc<str> = self.rope.to_string().into();
+            match self.kind(&text) {
+                Kind::Spec => Contents::Spec(Arc::new(Spec::read(text))),
+                Kind::Foreign => Contents::Foreign,
+                Kind::Ladder(certainty) => {
+                    let ladder = Ladder::read(text, &self.budget());
+                    match certainty {
+                        Certainty::Perhaps if !ladder.is_known() => Contents::Foreign,
+                        _ => Contents::Ladder(Arc::new(ladder)),
+                    }
+                }
+            }
+        })
+    }
+
+    /// The ladder that it holds, if it holds one.
+    pub fn ladder(&self) -> Option<&Arc<Ladder>> {
+        match self.contents() {
+            Contents::Ladder(ladder) => Some(ladder),
+            _ => None,
+        }
+    }
+
+    /// The spec that it holds, if it holds one.
+    pub fn spec(&self) -> Option<&Arc<Spec>> {
+        match self.contents() {
+            Contents::Spec(spec) => Some(spec),
+            _ => None,
+        }
+    }
+
+    /// The project's own notations are known by their names, so that an empty
+    /// file can be begun; of all else only the content tells.
+    fn kind(&self, text: &str) -> Kind {
+        let name = self.key.name().to_ascii_lowercase();
+        let is = |ending: &str, id: &str| name.ends_with(ending) || self.language_id == id;
+        if is(".grafcet", "grafcet") {
+            Kind::Spec
+        } else if is(".scenario", "gradus-scenario") {
+            Kind::Foreign
+        } else if let language::File::Spec(_) = language::of(text.as_bytes()) {
+            Kind::Spec
+        } else if is(".ladder", "gradus-ladder") {
+            Kind::Ladder(Certainty::Sure)
+        } else {
+            Kind::Ladder(Certainty::Perhaps)
+        }
+    }
+
+    /// The byte at a position.
+    pub fn offset(&self, position: Position, encoding: Encoding) -> usize {
+        encoding.offset(&self.rope, position)
+    }
+
+    /// Where a span of it is.
+    pub fn location(&self, span: Span, encoding: Encoding) -> Location {
+        Location::new(self.uri.clone(), encoding.range(&self.rope, span))
+    }
+}
+
+enum Kind {
+    Ladder(Certainty),
+    Spec,
+    Foreign,
+}
+
+/// Whether a text that cannot be read is a ladder all the same.
+enum Certainty {
+    Sure,
+    Perhaps,
+}
+
+fn replace(rope: &mut Rope, range: Range, text: &str, encoding: Encoding) {
+    let span = encoding.span(rope, range).range();
+    let start = rope.byte_to_char(span.start);
+    rope.remove(start..rope.byte_to_char(span.end));
+    rope.insert(start, text);
+}
+
+#[cfg(test)]
+mod tests {
+    use std::str::FromStr;
+
+    use super::*;
+
+    fn open(text: &str) -> Document {
+        let uri = Uri::from_str("file:///p/tank.ladder").expect("an address");
+        Document::new(uri, "gradus-ladder", Some(1), text)
+    }
+
+    fn change(range: [u32; 4], text: &str) -> TextDocumentContentChangeEvent {
+        let [from, at, to, end] = range;
+        TextDocumentContentChangeEvent {
+            range: Some(Range::new(Position::new(from, at), Position::new(to, end))),
+            range_length: None,
+            text: text.to_owned(),
+        }
+    }
+
+    #[test]
+    fn changes_are_made_one_after_the_other() {
+        let before = open("a\nb\n");
+        let changes = vec![change([0, 0, 0, 1], "long"), change([0, 4, 1, 0], " ")];
+        let after = before.edited(2, changes, Encoding::Utf16);
+        assert_eq!(after.rope.to_string(), "long b\n");
+        assert!(before.is_outdated() && !after.is_outdated());
+    }
+
+    #[test]
+    fn a_whole_text_replaces_the_old_one() {
+        let whole = TextDocumentContentChangeEvent {
+            range: None,
+            range_length: None,
+            text: "rung: a -> b".to_owned(),
+        };
+        let after = open("x").edited(2, vec![whole], Encoding::Utf8);
+        assert_eq!(after.rope.to_string(), "rung: a -> b");
+    }
+}

@@ -1,0 +1,150 @@
+//! A request under way.
+
+use std::sync::Arc;
+
+use logic::{Budget, Cancel};
+use tower_lsp::jsonrpc::{Error, Result};
+use tower_lsp::ls_types::{Location, Position, Range, Uri};
+
+use super::document::Document;
+use super::guard::{internal, reason};
+use super::position::Encoding;
+use super::world::World;
+use ide::{Ladder, Spec};
+use source::Span;
+
+/// A request about one document, with all that was known when it came.
+#[derive(Debug)]
+pub struct Query {
+    /// What was known.
+    pub world: World,
+    /// The document.
+    pub document: Arc<Document>,
+    /// What answering may cost; it ends when the client cancels.
+    pub budget: Budget,
+}
+
+impl Query {
+    /// What columns count.
+    pub fn encoding(&self) -> Encoding {
+        self.world.encoding()
+    }
+
+    /// The byte at a position of the document.
+    pub fn offset(&self, position: Position) -> usize {
+        self.document.offset(position, self.encoding())
+    }
+
+    /// The range of a span of the document.
+    pub fn range(&self, span: Span) -> Range {
+        self.encoding().range(&self.document.rope, span)
+    }
+
+    /// The ladder that the document holds.
+    pub fn ladder(&self) -> Option<&Arc<Ladder>> {
+        self.document.ladder().filter(|ladder| ladder.is_known())
+    }
+
+    /// The spec that the document holds.
+    pub fn spec(&self) -> Option<&Arc<Spec>> {
+        self.document.spec()
+    }
+
+    /// The document and the one beside it, told apart.
+    pub fn pair(&self) -> Pair {
+        if self.document.spec().is_some() {
+            Pair {
+                ladder: self.world.ladder_of(&self.document),
+                spec: Some(Arc::clone(&self.document)),
+            }
+        } else {
+            Pair {
+                spec: self.world.spec_of(&self.document),
+                ladder: self.ladder().map(|_| Arc::clone(&self.document)),
+            }
+        }
+    }
+
+    /// Where a span of `document` is.
+    pub fn location(&self, document: &Document, span: Span) -> Location {
+        document.location(span, self.encoding())
+    }
+}
+
+/// A ladder and the spec beside it.
+#[derive(Clone, Debug)]
+pub struct Pair {
+    /// The document that holds the ladder.
+    pub ladder: Option<Arc<Document>>,
+    /// The document that holds the spec.
+    pub spec: Option<Arc<Document>>,
+}
+
+impl Pair {
+    /// The ladder.
+    pub fn ladder(&self) -> Option<&Arc<Ladder>> {
+        self.ladder.as_ref()?.ladder()
+    }
+
+    /// The spec.
+    pub fn spec(&self) -> Option<&Arc<Spec>> {
+        self.spec.as_ref()?.spec()
+    }
+}
+
+/// Cancels when it is dropped, as the future of a cancelled request is.
+#[derive(Debug, Default)]
+struct CancelOnDrop(Cancel);
+
+impl Drop for CancelOnDrop {
+    fn drop(&mut self) {
+        self.0.cancel();
+    }
+}
+
+/// Answers a request about the document at `uri` on another thread. Of a
+/// document that is not there, nothing is known; of one that changes
+/// meanwhile, the answer is dropped.
+pub async fn about<T, F>(world: World, uri: Uri, work: F) -> Result<Option<T>>
+where
+    T: Send + 'static,
+    F: FnOnce(&Query) -> Option<T> + Send + 'static,
+{
+    elsewhere(move |cancel| {
+        let Some(document) = world.document(&uri) else {
+            return Ok(None);
+        };
+        let query = Query {
+            world,
+            document,
+            budget: Budget {
+                cancel,
+                ..Budget::default()
+            },
+        };
+        let answer = work(&query);
+        let mut used = query.world.open_partners(&query.document.key);
+        used.push(Arc::clone(&query.document));
+        match used.iter().any(|document| document.is_outdated()) {
+            true => Err(Error::content_modified()),
+            false => Ok(answer),
+        }
+    })
+    .await?
+}
+
+/// Does `work` on another thread; its flag is raised when nobody waits for the
+/// answer any more.
+pub async fn elsewhere<T, F>(work: F) -> Result<T>
+where
+    T: Send + 'static,
+    F: FnOnce(Cancel) -> T + Send + 'static,
+{
+    let guard = CancelOnDrop::default();
+    let cancel = guard.0.clone();
+    let done = tokio::task::spawn_blocking(move || work(cancel)).await;
+    done.map_err(|error| match error.try_into_panic() {
+        Ok(panic) => internal(reason(&*panic)),
+        Err(_) => Error::request_cancelled(),
+    })
+}

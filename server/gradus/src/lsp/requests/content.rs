@@ -1,0 +1,36 @@
+//! `workspace/textDocumentContent`: the text of a virtual document.
+
+use logic::{Budget, Cancel};
+use serde::{Deserialize, Serialize};
+use tower_lsp::jsonrpc::{Error, Result};
+use tower_lsp::ls_types::Uri;
+
+use crate::lsp::virtual_document;
+use crate::lsp::world::World;
+
+/// What is asked for.
+#[derive(Debug, Deserialize)]
+pub struct Params {
+    uri: Uri,
+}
+
+/// The answer.
+#[derive(Debug, Serialize, Deserialize)]
+pub struct Content {
+    text: String,
+}
+
+/// The text of the document that is asked for.
+pub fn answer(world: &World, params: &Params, cancel: Cancel) -> Result<Content> {
+    let budget = Budget {
+        cancel,
+        ..Budget::default()
+    };
+    match virtual_document::text(world, &params.uri, &budget) {
+        Some(text) => Ok(Content { text }),
+        None => Err(Error::invalid_params(format!(
+            "gradus makes no document {}",
+            params.uri.as_str()
+        ))),
+    }
+}

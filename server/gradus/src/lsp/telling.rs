@@ -1,0 +1,171 @@
+//! What the server tells its client without being asked.
+//!
+//! Everything here runs in tasks of its own, never in a handler: a client that
+//! answers late, or never, holds up nobody.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use serde_json::json;
+use tower_lsp::jsonrpc;
+use tower_lsp::ls_types::{
+    ConfigurationItem, DidChangeWatchedFilesRegistrationOptions, FileSystemWatcher, GlobPattern,
+    Registration,
+};
+
+use super::config::Config;
+use super::document::Document;
+use super::key::FileKey;
+use super::publish;
+use super::query::elsewhere;
+use super::server::Shared;
+use crate::input::ENDINGS;
+
+/// How long the client may take for an answer.
+const PATIENCE: Duration = Duration::from_secs(10);
+
+/// Waits for an answer of the client, but not for ever.
+pub async fn answer<T>(request: impl Future<Output = jsonrpc::Result<T>>) -> Option<T> {
+    tokio::time::timeout(PATIENCE, request).await.ok()?.ok()
+}
+
+/// Asks the client to watch the files that matter.
+pub fn register(shared: &Arc<Shared>) {
+    if !shared.state.world().abilities.watches_files {
+        return;
+    }
+    let shared = Arc::clone(shared);
+    tokio::spawn(async move {
+        let watchers = ENDINGS.iter().map(|ending| FileSystemWatcher {
+            glob_pattern: GlobPattern::String(format!("**/*.{}", in_any_case(ending))),
+            kind: None,
+        });
+        let options = DidChangeWatchedFilesRegistrationOptions {
+            watchers: watchers.collect(),
+        };
+        let registration = Registration {
+            id: "gradus-files".to_owned(),
+            method: "workspace/didChangeWatchedFiles".to_owned(),
+            register_options: serde_json::to_value(options).ok(),
+        };
+        answer(shared.client.register_capability(vec![registration])).await;
+    });
+}
+
+/// `l5x` as a pattern that also finds `L5X`.
+fn in_any_case(ending: &str) -> String {
+    let letter = |c: char| match c.is_ascii_alphabetic() {
+        true => format!("[{c}{}]", c.to_ascii_uppercase()),
+        false => c.to_string(),
+    };
+    ending.chars().map(letter).collect()
+}
+
+/// Asks the client what the user set, where it can be asked.
+pub fn ask_for_settings(shared: &Arc<Shared>) {
+    if !shared.state.world().abilities.configuration {
+        return;
+    }
+    let shared = Arc::clone(shared);
+    tokio::spawn(async move {
+        let section = ConfigurationItem {
+            scope_uri: None,
+            section: Some("gradus".to_owned()),
+        };
+        let found = answer(shared.client.configuration(vec![section])).await;
+        let Some(settings) = found.and_then(|found| found.into_iter().next()) else {
+            return;
+        };
+        let (config, complaints) = Config::read(&json!({ "gradus": settings }));
+        for complaint in complaints {
+            shared.log.line(complaint);
+        }
+        let changed = shared.state.change(|world| {
+            let changed = *world.config != config;
+            world.config = Arc::new(config);
+            changed
+        });
+        if changed {
+            everything(&shared);
+        }
+    });
+}
+
+/// Tells everything about every open document anew.
+pub fn everything(shared: &Arc<Shared>) {
+    let world = shared.state.world();
+    for key in world.open.keys() {
+        findings(shared, key);
+    }
+    refresh(shared);
+}
+
+/// Tells what is new when the document of `key` has changed: its findings, and
+/// those of the documents that depend on it.
+pub fn changed(shared: &Arc<Shared>, key: &FileKey) {
+    findings(shared, key);
+    for partner in shared.state.world().open_partners(key) {
+        findings(shared, &partner.key);
+    }
+}
+
+/// Takes back the findings of a document that was closed.
+pub fn closed(shared: &Arc<Shared>, document: &Document) {
+    let (shared, uri) = (Arc::clone(shared), document.uri.clone());
+    let key = document.key.clone();
+    tokio::spawn(async move {
+        let world = shared.state.world();
+        if !world.abilities.pulls_diagnostics && !world.open.contains_key(&key) {
+            shared
+                .client
+                .publish_diagnostics(uri, Vec::new(), None)
+                .await;
+        }
+        for partner in world.open_partners(&key) {
+            findings(&shared, &partner.key);
+        }
+    });
+}
+
+/// Tells the findings of an open document, unless the client asks for them.
+fn findings(shared: &Arc<Shared>, key: &FileKey) {
+    let world = shared.state.world();
+    if world.abilities.pulls_diagnostics {
+        return;
+    }
+    let Some(document) = world.open.get(key).cloned() else {
+        return;
+    };
+    let shared = Arc::clone(shared);
+    tokio::spawn(async move {
+        let (uri, version) = (document.uri.clone(), document.version);
+        let current = Arc::clone(&document);
+        let found = elsewhere(move |_| publish::diagnostics(&world, &current)).await;
+        match found {
+            Ok(_) if document.is_outdated() => {}
+            Ok(found) => shared.client.publish_diagnostics(uri, found, version).await,
+            Err(error) => shared.log.line(error.message.into_owned()),
+        }
+    });
+}
+
+/// Asks the client to ask again for what depends on settings.
+fn refresh(shared: &Arc<Shared>) {
+    let shared = Arc::clone(shared);
+    tokio::spawn(async move {
+        let abilities = shared.state.world().abilities;
+        let client = &shared.client;
+        if abilities.refreshes_lenses {
+            answer(client.code_lens_refresh()).await;
+        }
+        if abilities.refreshes_hints {
+            answer(client.inlay_hint_refresh()).await;
+        }
+        if abilities.refreshes_tokens {
+            answer(client.semantic_tokens_refresh()).await;
+        }
+        if abilities.refreshes_diagnostics && abilities.pulls_diagnostics {
+            answer(client.workspace_diagnostic_refresh()).await;
+        }
+    });
+}

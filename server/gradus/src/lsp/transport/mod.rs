@@ -1,0 +1,14 @@
+//! The streams of the language server.
+//!
+//! The protocol library reads a message only when it has written another, and
+//! stops for good at a frame that it cannot read. So each stream has a thread
+//! of its own, a *pump*, and a queue without end between the pump and the
+//! library: [`Input`] hands over only frames that hold one well-formed message,
+//! [`Output`] never makes anybody wait for a client that does not read.
+
+mod frame;
+mod input;
+mod output;
+
+pub use input::Input;
+pub use output::Output;

@@ -1,0 +1,128 @@
+//! Documents that no file holds: the server makes them, the client shows them.
+//!
+//! Their addresses name what they are made from, so that a client can ask for
+//! one again at any time (`workspace/textDocumentContent`):
+//!
+//! | address | shows |
+//! |---|---|
+//! | `gradus-ladder:/p/tank.L5X.ladder?URI` | the ladder of the document URI in rung notation |
+//! | `gradus-conditions:/p/tank.L5X.txt?URI` | the conditions of all its coils |
+//! | `gradus-explain:/G2002.md` | the page of a code |
+
+use std::str::FromStr;
+use std::sync::Arc;
+
+use logic::Budget;
+use percent_encoding::{NON_ALPHANUMERIC, percent_decode_str, utf8_percent_encode};
+use source::Code;
+use tower_lsp::ls_types::Uri;
+
+use super::world::World;
+use crate::command::conditions;
+use ide::Ladder;
+
+/// What a virtual document shows of a ladder.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum View {
+    /// The ladder in rung notation.
+    Ladder,
+    /// The conditions of its coils.
+    Conditions,
+}
+
+impl View {
+    fn scheme(self) -> &'static str {
+        match self {
+            Self::Ladder => "gradus-ladder",
+            Self::Conditions => "gradus-conditions",
+        }
+    }
+
+    fn ending(self) -> &'static str {
+        match self {
+            Self::Ladder => "ladder",
+            Self::Conditions => "txt",
+        }
+    }
+
+    /// The language of the text, as clients call it.
+    pub fn language(self) -> &'static str {
+        match self {
+            Self::Ladder => "gradus-ladder",
+            Self::Conditions => "plaintext",
+        }
+    }
+
+    /// The text.
+    pub fn text(self, ladder: &Ladder, budget: &Budget) -> String {
+        match self {
+            Self::Ladder => ladder_text(ladder),
+            Self::Conditions => conditions::plain_text(&ladder.analysis, budget),
+        }
+    }
+
+    /// The address of this view of the document at `uri`.
+    pub fn address(self, uri: &Uri) -> Option<Uri> {
+        let path = uri.path().as_str();
+        let slash = if path.starts_with('/') { "" } else { "/" };
+        let of = utf8_percent_encode(uri.as_str(), NON_ALPHANUMERIC);
+        let address = format!("{}:{slash}{path}.{}?{of}", self.scheme(), self.ending());
+        Uri::from_str(&address).ok()
+    }
+}
+
+/// The ladder in rung notation, above it what that has no words for.
+fn ladder_text(ladder: &Ladder) -> String {
+    let written = ladder::text::write(ladder.program());
+    let lost = written.lost.iter();
+    let notes: String = lost
+        .map(|lost| format!("// this text leaves out {}\n", lost.what))
+        .collect();
+    notes + &written.text
+}
+
+const PAGE: &str = "gradus-explain";
+
+/// The address of the page of a code.
+pub fn page(code: Code) -> Option<Uri> {
+    Uri::from_str(&format!("{PAGE}:/{code}.md")).ok()
+}
+
+/// The text of the virtual document at `uri`, if there is one.
+pub fn text(world: &World, uri: &Uri, budget: &Budget) -> Option<String> {
+    let scheme = uri.scheme().as_str();
+    if scheme == PAGE {
+        let name = uri.path().as_str().trim_start_matches('/');
+        return Some(Code::parse(name.strip_suffix(".md")?)?.page().to_owned());
+    }
+    let mut views = [View::Ladder, View::Conditions].into_iter();
+    let view = views.find(|view| view.scheme() == scheme)?;
+    let of = percent_decode_str(uri.query()?.as_str())
+        .decode_utf8()
+        .ok()?;
+    let document = world.document(&Uri::from_str(&of).ok()?)?;
+    let ladder: &Arc<Ladder> = document.ladder()?;
+    Some(view.text(ladder, budget))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_address_names_its_document_whatever_that_is_called() {
+        let uri = Uri::from_str("file:///p/a%20b/tank.L5X").expect("an address");
+        let address = View::Ladder.address(&uri).expect("an address");
+        assert_eq!(address.path().as_str(), "/p/a%20b/tank.L5X.ladder");
+        let of = address.query().expect("a query").as_str();
+        assert_eq!(percent_decode_str(of).decode_utf8_lossy(), uri.as_str());
+    }
+
+    #[test]
+    fn the_page_of_a_code_is_the_one_that_explain_prints() {
+        let code = source::codes::DOUBLE_COIL;
+        let address = page(code).expect("an address");
+        let text = text(&World::default(), &address, &Budget::default());
+        assert_eq!(text.as_deref(), Some(code.page()));
+    }
+}

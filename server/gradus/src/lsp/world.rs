@@ -1,0 +1,129 @@
+//! All that the server knows at one moment: open documents, settings, the
+//! client.
+//!
+//! The one [`State`] changes in the order in which messages arrive, before any
+//! handler waits for anything. Whoever answers a request takes the [`World`] of
+//! that moment, which never changes, and works on it elsewhere.
+
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use tower_lsp::ls_types::Uri;
+
+use super::abilities::Abilities;
+use super::config::Config;
+use super::disk::Disk;
+use super::document::{Contents, Document};
+use super::key::{FileKey, beside};
+use super::position::Encoding;
+use crate::input::LADDER_ENDINGS;
+
+/// What the server knows at one moment.
+#[derive(Clone, Debug, Default)]
+pub struct World {
+    /// Open documents.
+    pub open: BTreeMap<FileKey, Arc<Document>>,
+    /// What the user set.
+    pub config: Arc<Config>,
+    /// What the client can do.
+    pub abilities: Arc<Abilities>,
+    /// Folders that the client works on.
+    pub folders: Vec<FileKey>,
+    /// Files that are not open.
+    pub disk: Arc<Disk>,
+}
+
+impl World {
+    /// What columns count.
+    pub fn encoding(&self) -> Encoding {
+        self.abilities.encoding
+    }
+
+    /// The document at an address: as it is open, else as it lies on disk.
+    pub fn document(&self, uri: &Uri) -> Option<Arc<Document>> {
+        let key = FileKey::of(uri);
+        let open = self.open.get(&key).cloned();
+        open.or_else(|| self.disk.read(&key, self.config.max_file_size))
+    }
+
+    /// Where the spec of the ladder at `uri` is or would be.
+    pub fn spec_place(&self, uri: &Uri) -> Option<Uri> {
+        let place = beside(uri, "grafcet")?;
+        // The client's own spelling, if it has the document open.
+        let open = self.open.get(&FileKey::of(&place));
+        Some(open.map_or(place, |document| document.uri.clone()))
+    }
+
+    /// The spec beside a ladder.
+    pub fn spec_of(&self, ladder: &Document) -> Option<Arc<Document>> {
+        let document = self.document(&self.spec_place(&ladder.uri)?)?;
+        document.spec().is_some().then_some(document)
+    }
+
+    /// The ladder beside a spec: of the files that differ from it by their
+    /// ending only, the first that holds one.
+    pub fn ladder_of(&self, spec: &Document) -> Option<Arc<Document>> {
+        let open = self
+            .open
+            .values()
+            .filter(|it| is_beside(&it.key, &spec.key));
+        let on_disk = || {
+            let ladders = self.disk.beside(&spec.key, LADDER_ENDINGS);
+            let closed = ladders
+                .into_iter()
+                .filter(|key| !self.open.contains_key(key));
+            closed.filter_map(|key| self.disk.read(&key, self.config.max_file_size))
+        };
+        let mut found: Vec<Arc<Document>> = open.cloned().chain(on_disk()).collect();
+        found.sort_by_key(|it| rank(&it.key));
+        found.into_iter().find(|it| match it.contents() {
+            Contents::Ladder(ladder) => ladder.is_known(),
+            _ => false,
+        })
+    }
+
+    /// The document that belongs to this one, if it is open: the spec of a
+    /// ladder, the ladders of a spec.
+    pub fn open_partners(&self, key: &FileKey) -> Vec<Arc<Document>> {
+        let all = self.open.values();
+        all.filter(|it| is_beside(&it.key, key)).cloned().collect()
+    }
+}
+
+/// Whether two files differ by their ending only.
+fn is_beside(a: &FileKey, b: &FileKey) -> bool {
+    let stem = |key: &FileKey| match key {
+        FileKey::Path(path) => Some(path.with_extension("").to_string_lossy().into_owned()),
+        FileKey::Elsewhere(text) => Some(text.rsplit_once('.')?.0.to_owned()),
+    };
+    a != b && stem(a).is_some() && stem(a) == stem(b)
+}
+
+/// Where a file stands among those beside a spec: by its ending.
+fn rank(key: &FileKey) -> (usize, FileKey) {
+    let name = key.name().to_ascii_lowercase();
+    let ending = name.rsplit('.').next().unwrap_or_default();
+    let at = LADDER_ENDINGS.iter().position(|it| *it == ending);
+    (at.unwrap_or(LADDER_ENDINGS.len()), key.clone())
+}
+
+/// The one changing state of the server.
+#[derive(Debug, Default)]
+pub struct State(Mutex<World>);
+
+impl State {
+    /// What is known now.
+    pub fn world(&self) -> World {
+        self.lock().clone()
+    }
+
+    /// Changes what is known.
+    pub fn change<T>(&self, change: impl FnOnce(&mut World) -> T) -> T {
+        change(&mut self.lock())
+    }
+
+    fn lock(&self) -> MutexGuard<'_, World> {
+        // A change that panicked has left a document out, never half of one.
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}

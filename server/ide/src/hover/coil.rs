@@ -1,0 +1,120 @@
+//! What is known of a variable that coils write.
+
+use logic::{Budget, Name};
+use recovery::Analysis;
+use recovery::successions::{Evidence, Succession};
+
+use super::Block;
+use crate::decided::{Decided, Standing};
+use crate::{Coil, Ladder, Part, Spec};
+
+const TOO_LARGE: &str = "too large to be worked out";
+
+/// What it is, in a line.
+pub(super) fn summary(coil: &Coil<'_>, analysis: &Analysis) -> String {
+    let part = match coil.part {
+        Part::State => match analysis.states.find(coil.name).map(|it| it.holding) {
+            Some(recovery::states::Holding::Latch) => "holds a state (latch)",
+            _ => "holds a state (seal-in)",
+        },
+        Part::Repeats => "stored output: states set and reset it",
+        Part::Keeps => "keeps its value, but never both starts and ends",
+        Part::KeptWhenSkipped => "keeps its value while its rung is skipped",
+        Part::Oscillates => "falls in itself",
+        Part::Auxiliary => "carries a condition to other rungs",
+        Part::Follows => "follows its condition, holds nothing",
+        Part::TooLarge => TOO_LARGE,
+    };
+    match &coil.description {
+        Some(description) => format!("{description}: {part}"),
+        None => part.to_owned(),
+    }
+}
+
+/// Its conditions, interlocks and neighbours.
+pub(super) fn blocks(
+    coil: &Coil<'_>,
+    ladder: &Ladder,
+    spec: Option<&Spec>,
+    budget: &Budget,
+) -> Vec<Block> {
+    let mut blocks = vec![Block::Fields(conditions(coil))];
+    if let Some(resolved) = &coil.resolved {
+        blocks.push(Block::Text("With auxiliary coils resolved:".to_owned()));
+        blocks.push(Block::Fields(vec![
+            ("turns on", resolved.turns_on.clone()),
+            ("turns off", resolved.deactivation.clone()),
+        ]));
+    }
+    if coil.part == Part::State {
+        blocks.push(Block::Text(neighbours(coil.name, ladder, spec, budget)));
+    }
+    blocks
+}
+
+fn conditions(coil: &Coil<'_>) -> Vec<(&'static str, String)> {
+    let Some(said) = &coil.conditions else {
+        return vec![("conditions", TOO_LARGE.to_owned())];
+    };
+    let mut fields = match coil.part {
+        Part::Follows | Part::Auxiliary => vec![("on while", said.activation.clone())],
+        _ => vec![
+            ("turns on", said.turns_on.clone()),
+            ("stays on", said.stays_on.clone()),
+            ("turns off", said.deactivation.clone()),
+        ],
+    };
+    if !coil.interlocks.is_empty() {
+        fields.push(("interlocks", coil.interlocks.join(", ")));
+    }
+    if !coil.opaque.is_empty() {
+        fields.push(("opaque", coil.opaque.join(", ")));
+    }
+    fields
+}
+
+/// Which states it may follow, and which may follow it, with the evidence and
+/// what was decided.
+pub(super) fn neighbours(
+    name: &Name,
+    ladder: &Ladder,
+    spec: Option<&Spec>,
+    budget: &Budget,
+) -> String {
+    let decided = spec.map(Decided::of).unwrap_or_default();
+    let all = &ladder.analysis.successions;
+    let word = |succession: &Succession, other: &Name| {
+        let mut words = vec![succession.evidence.word().to_owned()];
+        if succession.evidence == Evidence::Handover
+            && let Some(condition) = &succession.condition
+            && let Some(condition) = crate::legible(condition, &ladder.analysis.conditions, budget)
+        {
+            words[0] += &format!(" on {condition}");
+        }
+        match decided.standing(&succession.from, &succession.to) {
+            Standing::Open => {}
+            Standing::Accepted => words.push("accepted".to_owned()),
+            Standing::Rejected => words.push("rejected".to_owned()),
+        }
+        format!("{other} ({})", words.join(", "))
+    };
+    let before: Vec<String> = all
+        .iter()
+        .filter(|it| it.to == *name)
+        .map(|it| word(it, &it.from))
+        .collect();
+    let after: Vec<String> = all
+        .iter()
+        .filter(|it| it.from == *name)
+        .map(|it| word(it, &it.to))
+        .collect();
+    let said = |list: Vec<String>, none: &str, some: &str| match list.is_empty() {
+        true => none.to_owned(),
+        false => format!("{some} {}", list.join(", ")),
+    };
+    format!(
+        "{} · {}",
+        said(before, "follows nothing that is known", "follows"),
+        said(after, "nothing known follows", "followed by")
+    )
+}
