@@ -7,6 +7,7 @@
 
 mod corpus;
 mod gradus;
+pub mod lsp;
 mod repository;
 #[cfg(unix)]
 mod terminal;

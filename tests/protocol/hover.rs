@@ -1,0 +1,95 @@
+use end_to_end::lsp::Profile;
+use tower_lsp::ls_types::request::HoverRequest;
+use tower_lsp::ls_types::{HoverContents, HoverParams, MarkupKind};
+
+use crate::{client, client_like};
+
+const TANK: &str = "\
+program Tank
+
+input  s   %I0 // Start
+input  ls2     // Level
+output v1  %Q0 // Fill
+output v2      // Dose
+
+rung \"Fill the tank\": (s + v1) * /ls2 -> v1
+rung: (ls2 + v2) * s -> v2
+";
+
+/// What is shown at the cursor in the tank's ladder.
+fn shown(profile: Profile, before: &str, after: &str) -> Option<(MarkupKind, String)> {
+    let mut client = client_like(profile);
+    let text = TANK.replacen(
+        &format!("{before}{after}"),
+        &format!("{before}$0{after}"),
+        1,
+    );
+    let marked = client.open("tank.ladder", &text);
+    let at = marked.position(0, profile.counts_bytes());
+    let params = HoverParams {
+        text_document_position_params: client.at("tank.ladder", at),
+        work_done_progress_params: Default::default(),
+    };
+    let hover = client.request::<HoverRequest>(params)?;
+    match hover.contents {
+        HoverContents::Markup(markup) => Some((markup.kind, markup.value)),
+        other => panic!("no markup: {other:?}"),
+    }
+}
+
+#[test]
+fn on_a_contact_the_conditions_of_its_coil_are_shown() {
+    let wanted = "**v1** `%Q0`  
+Fill: holds a state (seal-in)
+
+```text
+turns on   s*/ls2
+stays on   /ls2
+turns off  ls2
+```
+
+follows nothing that is known · followed by v2 (possible)
+
+```text
+┬──[ s ]───┬──[/ls2]────( v1 )
+└──[ v1 ]──┘
+```";
+    let markdown = shown(Profile::VsCode, "(s + v", "1) *");
+    assert_eq!(markdown, Some((MarkupKind::Markdown, wanted.to_owned())));
+}
+
+#[test]
+fn a_client_without_markdown_is_shown_plain_text() {
+    let (kind, text) = shown(Profile::Eglot, "(s + v", "1) *").expect("a hover");
+    assert_eq!(kind, MarkupKind::PlainText);
+    assert!(
+        text.starts_with("v1  %Q0\nFill: holds a state (seal-in)\n\nturns on   s*/ls2\n"),
+        "{text}"
+    );
+}
+
+#[test]
+fn on_an_input_its_readers_are_shown() {
+    let (_, text) = shown(Profile::VsCode, "/ls", "2 ->").expect("a hover");
+    assert_eq!(
+        text,
+        "**ls2**  \nLevel: input\n\nRead by rung 0 of Tank (Fill the tank), rung 1 of Tank"
+    );
+}
+
+#[test]
+fn between_things_nothing_is_shown() {
+    assert_eq!(shown(Profile::VsCode, "program Tank\n", "\n"), None);
+}
+
+#[test]
+fn xml_that_is_no_ladder_gets_no_answer() {
+    let mut client = client();
+    client.open("note.xml", "<note>v1</note>");
+    let params = HoverParams {
+        text_document_position_params: client.at("note.xml", Default::default()),
+        work_done_progress_params: Default::default(),
+    };
+    assert_eq!(client.request::<HoverRequest>(params), None);
+    assert_eq!(client.diagnostics("note.xml"), []);
+}

@@ -1,0 +1,19 @@
+//! The language server through its streams: each request in a file of its own.
+//!
+//! A test opens documents in a folder of its own, asks as an editor asks, and
+//! compares what it is shown. [`Client`](end_to_end::lsp::Client) fails on
+//! every message that the protocol does not know or nobody expected.
+
+mod hover;
+
+use end_to_end::lsp::{Client, Profile};
+
+/// A client of the kind that most people have.
+fn client() -> Client {
+    client_like(Profile::VsCode)
+}
+
+/// A client of this kind.
+fn client_like(profile: Profile) -> Client {
+    Client::start(env!("CARGO_BIN_EXE_gradus"), profile)
+}
