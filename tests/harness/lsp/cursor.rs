@@ -16,16 +16,18 @@ impl Marked {
         let mut cursors = Vec::new();
         let mut rest = text;
         while let Some(at) = rest.find('$') {
-            let digits = rest[at + 1..]
-                .chars()
-                .take_while(char::is_ascii_digit)
-                .count();
+            let behind = &rest[at + 1..];
             plain += &rest[..at];
-            match digits {
-                0 => plain.push('$'),
-                _ => cursors.push(plain.len()),
-            }
-            rest = &rest[at + 1 + digits..];
+            rest = match behind.strip_prefix(|c: char| c.is_ascii_digit()) {
+                Some(behind) => {
+                    cursors.push(plain.len());
+                    behind
+                }
+                None => {
+                    plain.push('$');
+                    behind
+                }
+            };
         }
         plain += rest;
         Self {
