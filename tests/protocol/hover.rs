@@ -48,7 +48,7 @@ stays on   /ls2
 turns off  ls2
 ```
 
-follows nothing that is known · followed by v2 (possible)
+follows v2 (possible) · followed by v2 (handover on s\\*ls2)
 
 ```text
 ┬──[ s ]───┬──[/ls2]────( v1 )
