@@ -11,6 +11,8 @@
 //! * [`language`]: whether a text is a ladder or a spec;
 //! * [`decide`]: what a new decision does to those made before.
 
+mod actions;
+mod change;
 mod coil;
 mod condition;
 pub mod decide;
@@ -22,6 +24,8 @@ pub mod language;
 mod names;
 mod spec;
 
+pub use actions::{Action, ActionKind, Effect, actions_in_ladder, actions_in_spec};
+pub use change::{Change, Departing, changed_spec, line_edits};
 pub use coil::{Coil, Drawn, Part, Said, coil, coils, kind_word};
 pub use condition::{legible, said};
 pub use decided::{Decided, Standing};

@@ -107,8 +107,9 @@ fn and(parser: &mut Parser<'_>) -> bool {
     found
 }
 
-/// The line of a decision.
-pub(crate) fn print(decision: &Decision) -> String {
+/// The line of a decision, as a spec holds it: `//! accept v1 -> v2`. The text
+/// of that line alone reads back as the decision.
+pub fn decision_text(decision: &Decision) -> String {
     let said = match &decision.verdict {
         Verdict::Accept { from, to } => {
             let to: Vec<String> = to.iter().map(|state| spell::state(state)).collect();

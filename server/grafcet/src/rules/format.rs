@@ -76,7 +76,7 @@ fn lay(document: &Document<'_>, statement: &Statement, lines: &mut Vec<Laid>) {
         }
         Kind::Decision(decision) => {
             lines.push(Laid {
-                text: decisions::print(decision),
+                text: decisions::decision_text(decision),
                 is_comment: false,
             });
             return;

@@ -56,6 +56,7 @@ mod syntax;
 mod words;
 mod write;
 
+pub use decisions::decision_text;
 pub use format::{Formatted, format};
 pub use places::{Mention, Places, Role, RulePlace};
 pub use read::{Reading, read};

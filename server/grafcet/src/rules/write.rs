@@ -31,7 +31,12 @@ pub fn write(spec: &Spec) -> String {
     blocks.push(section_lines(Section::Environment, environment));
     let never = spec.never.iter().map(never_line).collect();
     blocks.push(section_lines(Section::Never, never));
-    blocks.push(spec.decisions.iter().map(decisions::print).collect());
+    blocks.push(
+        spec.decisions
+            .iter()
+            .map(decisions::decision_text)
+            .collect(),
+    );
 
     blocks.retain(|block| !block.is_empty());
     let blocks: Vec<String> = blocks.iter().map(|lines| lines.join("\n")).collect();

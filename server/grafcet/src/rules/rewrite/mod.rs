@@ -372,7 +372,7 @@ fn decided(document: &Document<'_>, target: &Spec, edits: &mut Edits<'_>) {
     let how = How {
         key: |placed: &Placed<Decision>| placed.rule.verdict.clone(),
         counts: Counts::Each,
-        text: &decisions::print,
+        text: &decisions::decision_text,
         comment: |decision| decision.comment.as_ref(),
     };
     let wanted = global(&target.decisions);
@@ -380,7 +380,7 @@ fn decided(document: &Document<'_>, target: &Spec, edits: &mut Edits<'_>) {
     let all = target.decisions.iter().enumerate();
     let lines: Vec<String> = all
         .filter(|(nth, _)| missing.contains(nth))
-        .map(|(_, decision)| decisions::print(decision))
+        .map(|(_, decision)| decisions::decision_text(decision))
         .collect();
     match spots::for_decision(document) {
         (at, true) => edits.insert_lines(at, &lines),
