@@ -214,7 +214,10 @@ rung: (ls3 + v3) * ls1 -> v3
         assert_eq!(titles[0], "Take over what the ladder gives");
         assert!(titles[1].starts_with("Explain G3101"), "{titles:?}");
         assert!(titles[2].starts_with("Keep "), "{titles:?}");
-        assert_eq!(titles.last().expect("some"), "Take over all that the ladder gives");
+        assert_eq!(
+            titles.last().expect("some"),
+            "Take over all that the ladder gives"
+        );
     }
 
     #[test]

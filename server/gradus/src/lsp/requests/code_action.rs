@@ -1,0 +1,198 @@
+//! `textDocument/codeAction` and `codeAction/resolve`.
+//!
+//! What an action changes is worked out when it is taken, for clients that can
+//! wait for it; for others at once.
+
+use std::sync::Arc;
+
+use ide::{Action, ActionKind, Change, Departing, Effect, actions_in_ladder, actions_in_spec};
+use serde::{Deserialize, Serialize};
+use source::Diagnostic;
+use tower_lsp::ls_types::{
+    CodeAction, CodeActionContext, CodeActionKind, CodeActionOrCommand, Command, NumberOrString,
+    Range, Uri, WorkspaceEdit,
+};
+
+use super::command::EXPLAIN;
+use crate::lsp::edit::Changes;
+use crate::lsp::query::{Pair, Query};
+
+/// What an action that was not worked out yet needs to be.
+#[derive(Debug, Serialize, Deserialize)]
+pub struct Pending {
+    /// The document that it was offered in.
+    pub uri: Uri,
+    /// The state of that document.
+    version: Option<i32>,
+    /// What is decided, as [`Change`] spells it.
+    changes: Vec<String>,
+    /// Whether rules that depart from the ladder are renewed.
+    renew: bool,
+}
+
+/// The kinds of actions that are offered.
+pub const KINDS: [&str; 8] = [
+    "quickfix",
+    "refactor.gradus.accept",
+    "refactor.gradus.acceptTogether",
+    "refactor.gradus.reject",
+    "refactor.gradus.initial",
+    "refactor.gradus.undo",
+    "source.gradus.convert",
+    "source.gradus.explain",
+];
+
+fn kind(kind: ActionKind) -> &'static str {
+    let at = match kind {
+        ActionKind::Fix => 0,
+        ActionKind::Accept => 1,
+        ActionKind::AcceptTogether => 2,
+        ActionKind::Reject => 3,
+        ActionKind::Initial => 4,
+        ActionKind::Undo => 5,
+        ActionKind::Convert => 6,
+        ActionKind::Explain => 7,
+    };
+    KINDS[at]
+}
+
+/// What can be done in a range, best first.
+pub fn answer(
+    query: &Query,
+    range: Range,
+    context: &CodeActionContext,
+) -> Option<Vec<CodeActionOrCommand>> {
+    let span = query.encoding().span(&query.document.rope, range);
+    let findings = query.document.findings(&query.world);
+    let here = findings.into_iter().filter(|finding| {
+        finding.span.start <= span.end && span.start <= finding.span.end
+    });
+    let here: Vec<Diagnostic> = here.collect();
+    let pair = query.pair();
+    let budget = &query.budget;
+    let actions = match query.spec() {
+        Some(spec) => {
+            let ladder = pair.ladder().map(|it| &**it);
+            actions_in_spec(spec, ladder, span, &here, budget)
+        }
+        None => {
+            let spec = pair.spec().map(|it| &**it);
+            actions_in_ladder(query.ladder()?, spec, span, &here, budget)
+        }
+    };
+    let weakest = query.world.config.suggestions.evidence;
+    let wanted = |action: &Action| match &context.only {
+        None => true,
+        Some(only) => only.iter().any(|it| includes(it, kind(action.kind))),
+    };
+    let answered = actions
+        .into_iter()
+        .filter(|action| wanted(action) && weakest.shows(action.evidence))
+        .filter_map(|action| in_protocol(query, &pair, action, context));
+    Some(answered.map(CodeActionOrCommand::CodeAction).collect())
+}
+
+/// Whether `wanted`, a kind with all below it, includes `kind`.
+fn includes(wanted: &CodeActionKind, kind: &str) -> bool {
+    let wanted = wanted.as_str();
+    let rest = kind.strip_prefix(wanted);
+    wanted.is_empty() || rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+}
+
+fn in_protocol(
+    query: &Query,
+    pair: &Pair,
+    action: Action,
+    context: &CodeActionContext,
+) -> Option<CodeAction> {
+    let mut answered = CodeAction {
+        title: action.title.clone(),
+        kind: Some(CodeActionKind::from(kind(action.kind))),
+        is_preferred: action.preferred.then_some(true),
+        ..CodeAction::default()
+    };
+    match action.effect {
+        Effect::Show(code) => {
+            answered.command = Some(Command {
+                title: action.title,
+                command: EXPLAIN.to_owned(),
+                arguments: Some(vec![code.to_string().into()]),
+            });
+            let about = context.diagnostics.iter().filter(|it| {
+                it.code == Some(NumberOrString::String(code.to_string()))
+            });
+            answered.diagnostics = Some(about.cloned().collect());
+        }
+        Effect::Here(fix) => {
+            let mut changes = Changes::new(fix.title);
+            changes.edit(&query.document, fix.edits);
+            answered.edit = Some(changes.workspace_edit(&query.world));
+            answered.diagnostics = Some(context.diagnostics.clone());
+        }
+        Effect::Spec(changes, departing) if query.world.abilities.resolves_edits => {
+            let pending = Pending {
+                uri: query.document.uri.clone(),
+                version: query.document.version,
+                changes: changes.iter().map(Change::to_string).collect(),
+                renew: departing == Departing::Renewed,
+            };
+            answered.data = serde_json::to_value(pending).ok();
+        }
+        Effect::Spec(changes, departing) => {
+            answered.edit = Some(spec_edit(query, pair, &action.title, &changes, departing)?);
+        }
+    }
+    Some(answered)
+}
+
+/// The action with what it changes. `None` if the document has moved on.
+pub fn resolve(query: &Query, pending: &Pending, mut action: CodeAction) -> Option<CodeAction> {
+    if query.document.version != pending.version {
+        return None;
+    }
+    let changes: Option<Vec<Change>> =
+        pending.changes.iter().map(|text| Change::parse(text)).collect();
+    let departing = match pending.renew {
+        true => Departing::Renewed,
+        false => Departing::Stay,
+    };
+    let pair = query.pair();
+    action.edit = spec_edit(query, &pair, &action.title, &changes?, departing);
+    Some(action)
+}
+
+/// The edit of the spec that `changes` are; it makes the spec if there is none.
+pub fn spec_edit(
+    query: &Query,
+    pair: &Pair,
+    title: &str,
+    changes: &[Change],
+    departing: Departing,
+) -> Option<WorkspaceEdit> {
+    let ladder = pair.ladder()?;
+    let spec = pair.spec().map(Arc::as_ref);
+    let new = ide::changed_spec(ladder, spec, changes, departing, &query.budget);
+    if query.budget.cancel.is_cancelled() {
+        return None;
+    }
+    let mut edit = Changes::new(title);
+    put(query, pair, &mut edit, &new)?;
+    Some(edit.workspace_edit(&query.world))
+}
+
+/// Lets the spec of the pair say `new`.
+pub fn put(query: &Query, pair: &Pair, edit: &mut Changes, new: &str) -> Option<()> {
+    match &pair.spec {
+        Some(spec) => edit.rewrite(spec, new),
+        None => {
+            let place = query.world.spec_place(&pair.ladder.as_ref()?.uri)?;
+            match query.world.document(&place) {
+                // It is there, but empty or no spec yet: what is no spec stays.
+                Some(there) if there.rope.len_bytes() == 0 => edit.rewrite(&there, new),
+                Some(_) => return None,
+                None => edit.create(place, new),
+            }
+        }
+    }
+    Some(())
+}
