@@ -9,8 +9,10 @@
 //! * [`said`] and [`legible`]: a condition in the notation, past a size that a
 //!   person can read not at all;
 //! * [`language`]: whether a text is a ladder or a spec;
-//! * [`decide`]: what a new decision does to those made before.
+//! * [`decide`]: what a new decision does to those made before;
+//! * [`changed`]: the smallest edits from one text to another.
 
+mod changed;
 mod coil;
 mod condition;
 pub mod decide;
@@ -22,6 +24,7 @@ pub mod language;
 mod names;
 mod spec;
 
+pub use changed::{changed, edited};
 pub use coil::{Coil, Drawn, Part, Said, coil, coils, kind_word};
 pub use condition::{legible, said};
 pub use decided::{Decided, Standing};
