@@ -5,7 +5,6 @@ use std::fmt;
 use grafcet::{Decision, Verdict};
 use logic::{Budget, Name};
 use recovery::conversion::update;
-use source::{Edit, Span};
 
 use crate::{Ladder, Spec, decide};
 
@@ -97,36 +96,6 @@ pub fn changed_spec(
     grafcet::rewrite(spec.map_or("", |it| &it.text), &new)
 }
 
-/// The lines in which `new` differs from `old`, as edits of `old`.
-pub fn line_edits(old: &str, new: &str) -> Vec<Edit> {
-    let diff = similar::TextDiff::from_lines(old, new);
-    let mut edits: Vec<Edit> = Vec::new();
-    let mut at = 0;
-    for change in diff.iter_all_changes() {
-        let line = change.value();
-        let (removed, added) = match change.tag() {
-            similar::ChangeTag::Equal => {
-                at += line.len();
-                continue;
-            }
-            similar::ChangeTag::Delete => (line.len(), ""),
-            similar::ChangeTag::Insert => (0, line),
-        };
-        match edits.last_mut() {
-            Some(edit) if edit.span.range().end == at => {
-                edit.span = Span::new(edit.span.range().start, at + removed);
-                edit.text += added;
-            }
-            _ => edits.push(Edit {
-                span: Span::new(at, at + removed),
-                text: added.to_owned(),
-            }),
-        }
-        at += removed;
-    }
-    edits
-}
-
 /// `v2`, or `v2, h and m`.
 pub(crate) fn listed(names: &[Name]) -> String {
     match names {
@@ -151,23 +120,6 @@ mod tests {
             assert_eq!(change.to_string(), text);
         }
         assert_eq!(Change::parse("v1 -> v2"), None);
-    }
-
-    #[track_caller]
-    fn check_edits(old: &str, new: &str, wanted: &[(usize, usize, &str)]) {
-        let edits = line_edits(old, new);
-        let found = edits.iter().map(|edit| {
-            let span = edit.span.range();
-            (span.start, span.end, edit.text.as_str())
-        });
-        assert_eq!(found.collect::<Vec<_>>(), wanted);
-    }
-
-    #[test]
-    fn only_lines_that_differ_are_edited() {
-        check_edits("a\nb\nc\n", "a\nx\nc\nd\n", &[(2, 4, "x\n"), (6, 6, "d\n")]);
-        check_edits("", "a\n", &[(0, 0, "a\n")]);
-        check_edits("a\n", "a\n", &[]);
     }
 
     const TANK: &str = "rung: (s + v1) * /ls2 -> v1\nrung: ls2 + v2*/ls3 -> v2\n";

@@ -9,10 +9,12 @@
 //! * [`said`] and [`legible`]: a condition in the notation, past a size that a
 //!   person can read not at all;
 //! * [`language`]: whether a text is a ladder or a spec;
-//! * [`decide`]: what a new decision does to those made before.
+//! * [`decide`]: what a new decision does to those made before;
+//! * [`changed`]: the smallest edits from one text to another.
 
 mod actions;
 mod change;
+mod changed;
 mod coil;
 mod condition;
 pub mod decide;
@@ -27,7 +29,8 @@ mod names;
 mod spec;
 
 pub use actions::{Action, ActionKind, Effect, actions_in_ladder, actions_in_spec};
-pub use change::{Change, Departing, changed_spec, line_edits};
+pub use change::{Change, Departing, changed_spec};
+pub use changed::{changed, edited};
 pub use coil::{Coil, Drawn, Part, Said, coil, coils, kind_word};
 pub use condition::{legible, said};
 pub use decided::{Decided, Standing};

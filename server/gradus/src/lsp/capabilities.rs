@@ -3,6 +3,7 @@
 use tower_lsp::ls_types::*;
 
 use super::abilities::Abilities;
+use super::requests::{code_action, command};
 
 /// What is offered to a client with these abilities.
 pub fn capabilities(client: &Abilities) -> ServerCapabilities {
@@ -17,6 +18,19 @@ pub fn capabilities(client: &Abilities) -> ServerCapabilities {
                 save: Some(TextDocumentSyncSaveOptions::Supported(true)),
             },
         )),
+        code_action_provider: Some(CodeActionProviderCapability::Options(CodeActionOptions {
+            code_action_kinds: Some(code_action::KINDS.map(CodeActionKind::from).to_vec()),
+            resolve_provider: Some(client.resolves_edits),
+            work_done_progress_options: WorkDoneProgressOptions::default(),
+        })),
+        code_lens_provider: Some(CodeLensOptions {
+            resolve_provider: Some(false),
+        }),
+        execute_command_provider: Some(ExecuteCommandOptions {
+            commands: command::ALL.map(str::to_owned).to_vec(),
+            work_done_progress_options: WorkDoneProgressOptions::default(),
+        }),
+        inlay_hint_provider: Some(OneOf::Left(true)),
         hover_provider: Some(HoverProviderCapability::Simple(true)),
         diagnostic_provider: client.pulls_diagnostics.then(pulled_diagnostics),
         workspace: Some(WorkspaceServerCapabilities {

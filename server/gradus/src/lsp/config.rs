@@ -4,6 +4,7 @@
 //! it changes. Anything that is missing, or of a wrong type, is as in
 //! [`Config::default`]; a wrong one is said in the log.
 
+use recovery::successions::Evidence;
 use serde::Deserialize;
 use serde_json::Value;
 
@@ -47,6 +48,15 @@ pub enum Weakest {
     Handover,
     /// Also those of which the one may follow the other.
     Possible,
+}
+
+impl From<Weakest> for Evidence {
+    fn from(weakest: Weakest) -> Self {
+        match weakest {
+            Weakest::Handover => Self::Handover,
+            Weakest::Possible => Self::Possible,
+        }
+    }
 }
 
 /// What findings are shown.

@@ -11,11 +11,12 @@ use ide::language;
 use ide::{Ladder, Spec};
 use logic::{Budget, Cancel};
 use ropey::Rope;
-use source::Span;
+use source::{Diagnostic, Span};
 use tower_lsp::ls_types::{Location, Position, Range, TextDocumentContentChangeEvent, Uri};
 
 use super::key::FileKey;
 use super::position::Encoding;
+use super::world::World;
 
 /// A document.
 #[derive(Debug)]
@@ -31,6 +32,7 @@ pub struct Document {
     pub rope: Rope,
     language_id: String,
     contents: OnceLock<Contents>,
+    findings: OnceLock<Vec<Diagnostic>>,
     outdated: Cancel,
 }
 
@@ -55,6 +57,7 @@ impl Document {
             rope: Rope::from_str(text),
             language_id: language_id.to_owned(),
             contents: OnceLock::new(),
+            findings: OnceLock::new(),
             outdated: Cancel::default(),
         }
     }
@@ -82,6 +85,7 @@ impl Document {
             rope,
             language_id: self.language_id.clone(),
             contents: OnceLock::new(),
+            findings: OnceLock::new(),
             outdated: Cancel::default(),
         }
     }
@@ -120,6 +124,24 @@ impl Document {
                 }
             }
         })
+    }
+
+    /// Everything there is to say about it. What a spec has to hear depends on
+    /// its ladder; what a ladder has to hear, on nothing else.
+    pub fn findings(&self, world: &World) -> Vec<Diagnostic> {
+        let budget = self.budget();
+        match self.contents() {
+            Contents::Ladder(ladder) => {
+                let found = self.findings.get_or_init(|| ladder.findings(&budget));
+                found.clone()
+            }
+            Contents::Spec(spec) => {
+                let beside = world.ladder_of(self);
+                let ladder = beside.as_ref().and_then(|it| it.ladder());
+                spec.findings(ladder.map(|it| &**it), &budget)
+            }
+            Contents::Foreign => Vec::new(),
+        }
     }
 
     /// The ladder that it holds, if it holds one.

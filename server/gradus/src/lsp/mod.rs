@@ -22,6 +22,7 @@ mod capabilities;
 mod config;
 mod disk;
 mod document;
+mod edit;
 mod guard;
 mod key;
 mod log;

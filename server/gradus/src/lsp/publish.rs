@@ -9,7 +9,7 @@ use tower_lsp::ls_types::{
     NumberOrString, Uri,
 };
 
-use super::document::{Contents, Document};
+use super::document::Document;
 use super::virtual_document;
 use super::world::World;
 
@@ -18,18 +18,6 @@ pub fn diagnostics(world: &World, document: &Arc<Document>) -> Vec<Diagnostic> {
     if !world.config.diagnostics.enable {
         return Vec::new();
     }
-    let budget = document.budget();
-    let found = match document.contents() {
-        Contents::Ladder(ladder) => ladder.findings(&budget),
-        Contents::Spec(spec) => {
-            let ladder = world.ladder_of(document);
-            spec.findings(
-                ladder.as_ref().and_then(|it| it.ladder()).map(|it| &**it),
-                &budget,
-            )
-        }
-        Contents::Foreign => Vec::new(),
-    };
     let ignored: HashSet<Code> = world
         .config
         .diagnostics
@@ -37,6 +25,7 @@ pub fn diagnostics(world: &World, document: &Arc<Document>) -> Vec<Diagnostic> {
         .iter()
         .filter_map(|code| Code::parse(code))
         .collect();
+    let found = document.findings(world);
     found
         .iter()
         .filter(|finding| !ignored.contains(&finding.code))

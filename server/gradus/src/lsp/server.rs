@@ -7,7 +7,7 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use tower_lsp::jsonrpc::Result;
+use tower_lsp::jsonrpc::{Error, Result};
 use tower_lsp::ls_types::notification::Notification;
 use tower_lsp::ls_types::*;
 use tower_lsp::{Client, ClientSocket, LanguageServer, LspService};
@@ -19,6 +19,7 @@ use super::document::Document;
 use super::key::FileKey;
 use super::log::Log;
 use super::query::{self, about};
+use super::requests::command::Command;
 use super::world::State;
 use super::{parent, publish, requests, telling};
 
@@ -229,6 +230,57 @@ impl LanguageServer for Server {
             })
             .into(),
         )
+    }
+
+    async fn code_action(&self, params: CodeActionParams) -> Result<Option<CodeActionResponse>> {
+        let uri = params.text_document.uri;
+        about(self.shared.state.world(), uri, move |query| {
+            requests::code_action::answer(query, params.range, &params.context)
+        })
+        .await
+    }
+
+    async fn code_action_resolve(&self, params: CodeAction) -> Result<CodeAction> {
+        let world = self.shared.state.world();
+        let data = params.data.clone().unwrap_or_default();
+        let Ok(pending) = serde_json::from_value::<requests::code_action::Pending>(data) else {
+            return Ok(params);
+        };
+        let resolved = about(world, pending.uri.clone(), move |query| {
+            requests::code_action::resolve(query, &pending, params)
+        });
+        resolved.await?.ok_or_else(Error::content_modified)
+    }
+
+    async fn code_lens(&self, params: CodeLensParams) -> Result<Option<Vec<CodeLens>>> {
+        let uri = params.text_document.uri;
+        about(self.shared.state.world(), uri, requests::code_lens::answer).await
+    }
+
+    async fn execute_command(&self, params: ExecuteCommandParams) -> Result<Option<LSPAny>> {
+        let world = self.shared.state.world();
+        match requests::command::read(params)? {
+            Command::Explain(code) => Ok(Some(requests::command::page(code))),
+            Command::Report => Ok(Some(requests::command::report(&world, &self.shared.log))),
+            Command::Ladder(uri, command) => {
+                let done = about(world, uri.clone(), move |query| {
+                    requests::command::answer(query, &command)
+                });
+                let Some(done) = done.await? else {
+                    let what = format!("{} holds no ladder that gradus knows", uri.as_str());
+                    return Err(Error::invalid_params(what));
+                };
+                telling::carry_out(&self.shared, done).await.map(Some)
+            }
+        }
+    }
+
+    async fn inlay_hint(&self, params: InlayHintParams) -> Result<Option<Vec<InlayHint>>> {
+        let uri = params.text_document.uri;
+        about(self.shared.state.world(), uri, move |query| {
+            requests::inlay_hint::answer(query, params.range)
+        })
+        .await
     }
 
     async fn hover(&self, params: HoverParams) -> Result<Option<Hover>> {

@@ -10,7 +10,7 @@ use serde_json::json;
 use tower_lsp::jsonrpc;
 use tower_lsp::ls_types::{
     ConfigurationItem, DidChangeWatchedFilesRegistrationOptions, FileSystemWatcher, GlobPattern,
-    Registration,
+    LSPAny, Registration, ShowDocumentParams,
 };
 
 use super::config::Config;
@@ -18,6 +18,7 @@ use super::document::Document;
 use super::key::FileKey;
 use super::publish;
 use super::query::elsewhere;
+use super::requests::command::Done;
 use super::server::Shared;
 use crate::input::ENDINGS;
 
@@ -27,6 +28,31 @@ const PATIENCE: Duration = Duration::from_secs(10);
 /// Waits for an answer of the client, but not for ever.
 pub async fn answer<T>(request: impl Future<Output = jsonrpc::Result<T>>) -> Option<T> {
     tokio::time::timeout(PATIENCE, request).await.ok()?.ok()
+}
+
+/// Lets the client do what a command comes to, and gives the command's answer.
+pub async fn carry_out(shared: &Arc<Shared>, done: Done) -> jsonrpc::Result<LSPAny> {
+    let abilities = shared.state.world().abilities;
+    if let Some(edit) = done.edit {
+        let applied = answer(shared.client.apply_edit(edit)).await;
+        if !applied.is_some_and(|it| it.applied) {
+            let message = "the editor did not apply the edit".into();
+            return Err(jsonrpc::Error {
+                message,
+                ..jsonrpc::Error::internal_error()
+            });
+        }
+    }
+    if let Some(uri) = done.show.filter(|_| abilities.shows_documents) {
+        let shown = ShowDocumentParams {
+            uri,
+            external: None,
+            take_focus: Some(true),
+            selection: None,
+        };
+        answer(shared.client.show_document(shown)).await;
+    }
+    Ok(done.answer)
 }
 
 /// Asks the client to watch the files that matter.

@@ -38,7 +38,8 @@ impl View {
         }
     }
 
-    fn ending(self) -> &'static str {
+    /// The ending of its name.
+    pub fn ending(self) -> &'static str {
         match self {
             Self::Ladder => "ladder",
             Self::Conditions => "txt",

@@ -7,6 +7,7 @@ mod mend;
 mod states;
 
 use logic::{Budget, Name};
+use recovery::successions::Evidence;
 use source::{Code, Diagnostic, Fix, Span};
 
 use crate::{Change, Departing, Ladder, Spec};
@@ -59,17 +60,19 @@ pub enum Effect {
 }
 
 /// All that can be done where `span` is in a ladder, best first. `findings` are
-/// those that the place is about.
+/// those that the place is about; suggestions weaker than `weakest` are left
+/// out.
 pub fn actions_in_ladder(
     ladder: &Ladder,
     spec: Option<&Spec>,
     span: Span,
     findings: &[Diagnostic],
+    weakest: Evidence,
     budget: &Budget,
 ) -> Vec<Action> {
     let mut all = mending(findings);
     let states = in_ladder(ladder, span);
-    all.extend(about_states(ladder, spec, &states, budget));
+    all.extend(about_states(ladder, spec, &states, weakest, budget));
     if spec.is_none() && !ladder.analysis.groups.is_empty() {
         all.push(Action {
             title: "Create the spec beside the ladder".to_owned(),
@@ -87,6 +90,7 @@ pub fn actions_in_spec(
     ladder: Option<&Ladder>,
     span: Span,
     findings: &[Diagnostic],
+    weakest: Evidence,
     budget: &Budget,
 ) -> Vec<Action> {
     let mut all = mending(findings);
@@ -94,7 +98,7 @@ pub fn actions_in_spec(
     if let Some(ladder) = ladder {
         all.extend(mend::withdrawing(spec, span));
         let states = in_spec(spec, span);
-        all.extend(about_states(ladder, Some(spec), &states, budget));
+        all.extend(about_states(ladder, Some(spec), &states, weakest, budget));
         if findings
             .iter()
             .any(|it| it.code == source::codes::RULE_NOT_SUPPORTED)
@@ -137,7 +141,14 @@ rung: (ls3 + v3) * ls1 -> v3
         let ladder = Ladder::read(text.into(), &budget);
         let spec = spec.map(|text| Spec::read(text.into()));
         let span = Span::new(start, end);
-        let all = actions_in_ladder(&ladder, spec.as_ref(), span, &[], &budget);
+        let all = actions_in_ladder(
+            &ladder,
+            spec.as_ref(),
+            span,
+            &[],
+            Evidence::Possible,
+            &budget,
+        );
         all.into_iter().map(|action| action.title).collect()
     }
 
@@ -196,7 +207,14 @@ rung: (ls3 + v3) * ls1 -> v3
         let findings = spec.findings(Some(&ladder), &budget);
         let here = findings.into_iter().filter(|it| it.span.touches(start));
         let here: Vec<Diagnostic> = here.collect();
-        let all = actions_in_spec(&spec, Some(&ladder), Span::at(start), &here, &budget);
+        let all = actions_in_spec(
+            &spec,
+            Some(&ladder),
+            Span::at(start),
+            &here,
+            Evidence::Possible,
+            &budget,
+        );
         all.into_iter().map(|action| action.title).collect()
     }
 

@@ -89,11 +89,13 @@ pub(super) fn about_states(
     ladder: &Ladder,
     spec: Option<&Spec>,
     states: &[Name],
+    weakest: Evidence,
     budget: &Budget,
 ) -> Vec<Action> {
     let view = View {
         ladder,
         decided: spec.map(Decided::of).unwrap_or_default(),
+        weakest,
         budget,
     };
     let mut all = Vec::new();
@@ -118,6 +120,7 @@ pub(super) fn about_states(
 struct View<'v> {
     ladder: &'v Ladder,
     decided: Decided,
+    weakest: Evidence,
     budget: &'v Budget,
 }
 
@@ -130,7 +133,7 @@ impl View<'_> {
     /// are no suggestions.
     fn open(&self) -> impl Iterator<Item = &Succession> {
         let all = self.analysis().successions.iter();
-        all.filter(|it| it.evidence != Evidence::Written)
+        all.filter(|it| it.evidence != Evidence::Written && it.evidence <= self.weakest)
             .filter(|it| self.decided.standing(&it.from, &it.to) == Standing::Open)
     }
 

@@ -64,30 +64,30 @@ pub fn answer(
 ) -> Option<Vec<CodeActionOrCommand>> {
     let span = query.encoding().span(&query.document.rope, range);
     let findings = query.document.findings(&query.world);
-    let here = findings.into_iter().filter(|finding| {
-        finding.span.start <= span.end && span.start <= finding.span.end
-    });
+    let here = findings
+        .into_iter()
+        .filter(|finding| finding.span.start <= span.end && span.start <= finding.span.end);
     let here: Vec<Diagnostic> = here.collect();
     let pair = query.pair();
     let budget = &query.budget;
+    let weakest = query.world.config.suggestions.evidence.into();
     let actions = match query.spec() {
         Some(spec) => {
             let ladder = pair.ladder().map(|it| &**it);
-            actions_in_spec(spec, ladder, span, &here, budget)
+            actions_in_spec(spec, ladder, span, &here, weakest, budget)
         }
         None => {
             let spec = pair.spec().map(|it| &**it);
-            actions_in_ladder(query.ladder()?, spec, span, &here, budget)
+            actions_in_ladder(query.ladder()?, spec, span, &here, weakest, budget)
         }
     };
-    let weakest = query.world.config.suggestions.evidence;
     let wanted = |action: &Action| match &context.only {
         None => true,
         Some(only) => only.iter().any(|it| includes(it, kind(action.kind))),
     };
     let answered = actions
         .into_iter()
-        .filter(|action| wanted(action) && weakest.shows(action.evidence))
+        .filter(wanted)
         .filter_map(|action| in_protocol(query, &pair, action, context));
     Some(answered.map(CodeActionOrCommand::CodeAction).collect())
 }
@@ -118,9 +118,10 @@ fn in_protocol(
                 command: EXPLAIN.to_owned(),
                 arguments: Some(vec![code.to_string().into()]),
             });
-            let about = context.diagnostics.iter().filter(|it| {
-                it.code == Some(NumberOrString::String(code.to_string()))
-            });
+            let about = context
+                .diagnostics
+                .iter()
+                .filter(|it| it.code == Some(NumberOrString::String(code.to_string())));
             answered.diagnostics = Some(about.cloned().collect());
         }
         Effect::Here(fix) => {
@@ -150,8 +151,11 @@ pub fn resolve(query: &Query, pending: &Pending, mut action: CodeAction) -> Opti
     if query.document.version != pending.version {
         return None;
     }
-    let changes: Option<Vec<Change>> =
-        pending.changes.iter().map(|text| Change::parse(text)).collect();
+    let changes: Option<Vec<Change>> = pending
+        .changes
+        .iter()
+        .map(|text| Change::parse(text))
+        .collect();
     let departing = match pending.renew {
         true => Departing::Renewed,
         false => Departing::Stay,

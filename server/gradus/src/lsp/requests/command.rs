@@ -103,12 +103,12 @@ pub fn read(params: ExecuteCommandParams) -> Result<Command> {
             let argument = argument()?;
             let accept = match argument.accept {
                 None | Some(Word::None) => Accept::None,
-                Some(Word::Handover) => Accept::Handover,
+                Some(Word::Handover) => Accept::Handovers,
                 Some(Word::All) => Accept::All,
             };
             (argument.uri, LadderCommand::Convert(accept))
         }
-        "gradus.acceptHandovers" => (argument()?.uri, LadderCommand::Convert(Accept::Handover)),
+        "gradus.acceptHandovers" => (argument()?.uri, LadderCommand::Convert(Accept::Handovers)),
         OPEN_SPEC => (argument()?.uri, LadderCommand::OpenSpec),
         "gradus.ladderText" => (argument()?.uri, LadderCommand::Show(View::Ladder)),
         "gradus.conditions" => (argument()?.uri, LadderCommand::Show(View::Conditions)),
@@ -160,7 +160,10 @@ pub fn answer(query: &Query, command: &LadderCommand) -> Option<Done> {
             })
         }
         LadderCommand::Convert(accept) => {
-            let existing = pair.spec().map(|it| it.reading.spec.clone()).unwrap_or_default();
+            let existing = pair
+                .spec()
+                .map(|it| it.reading.spec.clone())
+                .unwrap_or_default();
             let decisions = decide(&ladder.analysis, &existing.decisions, accept);
             let updated = update(&ladder.analysis, &existing, &decisions, &query.budget);
             let old = pair.spec().map_or("", |it| &*it.text);
@@ -205,7 +208,13 @@ pub fn page(code: Code) -> Value {
 pub fn report(world: &World, log: &Log) -> Value {
     let open = world.open.values().map(|document| {
         let bytes = document.rope.len_bytes();
-        let ending = document.key.name().rsplit('.').next().unwrap_or_default().to_owned();
+        let ending = document
+            .key
+            .name()
+            .rsplit('.')
+            .next()
+            .unwrap_or_default()
+            .to_owned();
         format!("- a document `.{ending}` of {bytes} bytes")
     });
     let open: Vec<String> = open.collect();
