@@ -4,7 +4,10 @@
 //! compares what it is shown. [`Client`](end_to_end::lsp::Client) fails on
 //! every message that the protocol does not know or nobody expected.
 
+mod code_action;
+mod commands;
 mod hover;
+mod lenses;
 
 use end_to_end::lsp::{Client, Profile};
 

@@ -232,21 +232,40 @@ impl Client {
 
     /// Sends a request without waiting for its answer.
     pub fn begin<R: Request>(&mut self, params: R::Params) -> i64 {
+        let params = serde_json::to_value(params).expect("params in JSON");
+        self.send_request(R::METHOD, params)
+    }
+
+    fn send_request(&mut self, method: &str, params: Value) -> i64 {
         let id = self.next_id;
         self.next_id += 1;
-        let params = serde_json::to_value(params).expect("params in JSON");
-        let message = json!({ "jsonrpc": "2.0", "id": id, "method": R::METHOD, "params": params });
+        let message = json!({ "jsonrpc": "2.0", "id": id, "method": method, "params": params });
         self.wire.send(&message);
         id
     }
 
-    /// The answer to the request of that number.
-    pub fn end<R: Request>(&mut self, id: i64) -> Result<R::Result, Refused> {
-        while !self.answers.contains_key(&id) {
+    /// The answer to a request that the types of the protocol do not know.
+    #[track_caller]
+    pub fn ask_raw(&mut self, method: &str, params: Value) -> Value {
+        let id = self.send_request(method, params);
+        let answer = self.answer(id);
+        assert_eq!(answer.get("error"), None, "{method}");
+        answer["result"].clone()
+    }
+
+    fn answer(&mut self, id: i64) -> Value {
+        loop {
+            if let Some(answer) = self.answers.remove(&id) {
+                return answer;
+            }
             let message = self.wire.receive();
             self.take(message);
         }
-        let answer = self.answers.remove(&id).unwrap_or_default();
+    }
+
+    /// The answer to the request of that number.
+    pub fn end<R: Request>(&mut self, id: i64) -> Result<R::Result, Refused> {
+        let answer = self.answer(id);
         if let Some(error) = answer.get("error") {
             return Err(Refused {
                 code: error["code"].as_i64().expect("the code of an error"),

@@ -32,6 +32,7 @@ mod publish;
 mod query;
 mod requests;
 mod server;
+mod status;
 mod telling;
 mod transport;
 mod virtual_document;

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use logic::{Budget, Cancel};
 use tower_lsp::jsonrpc::{Error, Result};
-use tower_lsp::ls_types::{Location, Position, Range, Uri};
+use tower_lsp::ls_types::{Position, Range, Uri};
 
 use super::document::Document;
 use super::guard::{internal, reason};
@@ -52,22 +52,7 @@ impl Query {
 
     /// The document and the one beside it, told apart.
     pub fn pair(&self) -> Pair {
-        if self.document.spec().is_some() {
-            Pair {
-                ladder: self.world.ladder_of(&self.document),
-                spec: Some(Arc::clone(&self.document)),
-            }
-        } else {
-            Pair {
-                spec: self.world.spec_of(&self.document),
-                ladder: self.ladder().map(|_| Arc::clone(&self.document)),
-            }
-        }
-    }
-
-    /// Where a span of `document` is.
-    pub fn location(&self, document: &Document, span: Span) -> Location {
-        document.location(span, self.encoding())
+        Pair::of(&self.world, &self.document)
     }
 }
 
@@ -81,6 +66,21 @@ pub struct Pair {
 }
 
 impl Pair {
+    /// A document and the one beside it.
+    pub fn of(world: &World, document: &Arc<Document>) -> Self {
+        if document.spec().is_some() {
+            return Self {
+                ladder: world.ladder_of(document),
+                spec: Some(Arc::clone(document)),
+            };
+        }
+        let is_ladder = document.ladder().is_some_and(|it| it.is_known());
+        Self {
+            spec: world.spec_of(document),
+            ladder: is_ladder.then(|| Arc::clone(document)),
+        }
+    }
+
     /// The ladder.
     pub fn ladder(&self) -> Option<&Arc<Ladder>> {
         self.ladder.as_ref()?.ladder()

@@ -8,7 +8,6 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use tower_lsp::jsonrpc::{Error, Result};
-use tower_lsp::ls_types::notification::Notification;
 use tower_lsp::ls_types::*;
 use tower_lsp::{Client, ClientSocket, LanguageServer, LspService};
 
@@ -292,13 +291,4 @@ impl LanguageServer for Server {
         )
         .await
     }
-}
-
-/// A notification of the server's own: what is known of a ladder.
-#[derive(Debug)]
-pub enum StatusNotification {}
-
-impl Notification for StatusNotification {
-    type Params = LSPAny;
-    const METHOD: &'static str = "gradus/status";
 }

@@ -20,6 +20,7 @@ use super::publish;
 use super::query::elsewhere;
 use super::requests::command::Done;
 use super::server::Shared;
+use super::status::{self, StatusNotification};
 use crate::input::ENDINGS;
 
 /// How long the client may take for an answer.
@@ -133,6 +134,27 @@ pub fn changed(shared: &Arc<Shared>, key: &FileKey) {
     for partner in shared.state.world().open_partners(key) {
         findings(shared, &partner.key);
     }
+    status(shared, key);
+}
+
+/// Tells clients that show it how the ladder and the spec of `key` stand.
+fn status(shared: &Arc<Shared>, key: &FileKey) {
+    let world = shared.state.world();
+    let document = world.open.get(key).cloned();
+    let Some(document) = document.filter(|_| world.abilities.status) else {
+        return;
+    };
+    let shared = Arc::clone(shared);
+    tokio::spawn(async move {
+        let current = Arc::clone(&document);
+        let found = elsewhere(move |_| status::of(world, current)).await;
+        if let Ok(Some(status)) = found
+            && !document.is_outdated()
+        {
+            let client = &shared.client;
+            client.send_notification::<StatusNotification>(status).await;
+        }
+    });
 }
 
 /// Takes back the findings of a document that was closed.

@@ -1,0 +1,221 @@
+use end_to_end::lsp::{Client, Profile, selected};
+use tower_lsp::ls_types::request::{CodeActionRequest, CodeActionResolveRequest};
+use tower_lsp::ls_types::{
+    CodeAction, CodeActionContext, CodeActionOrCommand, CodeActionParams, DocumentChangeOperation,
+    DocumentChanges, OneOf, Range, ResourceOp, TextDocumentIdentifier, TextEdit, WorkspaceEdit,
+};
+
+use crate::client_like;
+
+const LADDER: &str = "fixtures/neutralization/neutralization.ladder";
+
+/// What is offered at the first `what` of an open document.
+fn offered(client: &mut Client, name: &str, what: &str) -> Vec<CodeAction> {
+    let text = client.text(name).to_owned();
+    let at = text.find(what).expect("the place");
+    let marked = end_to_end::lsp::Marked {
+        text,
+        cursors: vec![at],
+    };
+    let position = marked.position(0, false);
+    let params = CodeActionParams {
+        text_document: TextDocumentIdentifier {
+            uri: client.uri(name),
+        },
+        range: Range::new(position, position),
+        context: CodeActionContext::default(),
+        work_done_progress_params: Default::default(),
+        partial_result_params: Default::default(),
+    };
+    let actions = client
+        .request::<CodeActionRequest>(params)
+        .unwrap_or_default();
+    actions
+        .into_iter()
+        .map(|action| match action {
+            CodeActionOrCommand::CodeAction(action) => action,
+            CodeActionOrCommand::Command(command) => panic!("a command: {command:?}"),
+        })
+        .collect()
+}
+
+/// What the action of that title changes.
+fn taken(client: &mut Client, actions: &[CodeAction], title: &str) -> WorkspaceEdit {
+    let titles: Vec<&str> = actions.iter().map(|it| &*it.title).collect();
+    let action = actions.iter().find(|it| it.title.starts_with(title));
+    let action = action
+        .unwrap_or_else(|| panic!("no {title} in {titles:#?}"))
+        .clone();
+    let edit = action.edit.clone();
+    edit.unwrap_or_else(|| {
+        let resolved = client.request::<CodeActionResolveRequest>(action);
+        resolved.edit.expect("an edit")
+    })
+}
+
+/// All text edits of an edit, and whether it makes a file.
+fn text_edits(edit: &WorkspaceEdit) -> (bool, Vec<TextEdit>) {
+    let plain = |edits: &[OneOf<TextEdit, tower_lsp::ls_types::AnnotatedTextEdit>]| {
+        let edits = edits.iter().map(|it| match it {
+            OneOf::Left(edit) => edit.clone(),
+            OneOf::Right(annotated) => annotated.text_edit.clone(),
+        });
+        edits.collect::<Vec<_>>()
+    };
+    match &edit.document_changes {
+        Some(DocumentChanges::Edits(edits)) => (
+            false,
+            edits.iter().flat_map(|it| plain(&it.edits)).collect(),
+        ),
+        Some(DocumentChanges::Operations(operations)) => {
+            let mut creates = false;
+            let mut all = Vec::new();
+            for operation in operations {
+                match operation {
+                    DocumentChangeOperation::Op(ResourceOp::Create(_)) => creates = true,
+                    DocumentChangeOperation::Edit(edit) => all.extend(plain(&edit.edits)),
+                    other => panic!("nobody wanted {other:?}"),
+                }
+            }
+            (creates, all)
+        }
+        None => {
+            let changes = edit.changes.clone().unwrap_or_default();
+            (false, changes.into_values().flatten().collect())
+        }
+    }
+}
+
+/// `text` after `edits`.
+fn edited(text: &str, edits: &[TextEdit]) -> String {
+    let mut edits = edits.to_vec();
+    edits.sort_by_key(|edit| (edit.range.start, edit.range.end));
+    let mut out = text.to_owned();
+    for edit in edits.iter().rev() {
+        let old = selected(text, edit.range);
+        let start = old.as_ptr() as usize - text.as_ptr() as usize;
+        out.replace_range(start..start + old.len(), &edit.new_text);
+    }
+    out
+}
+
+const TOGETHER: &str = "Accept v1 -> v2, h and m together (AND, handover";
+
+#[test]
+fn accepting_makes_the_spec_beside_the_ladder() {
+    for profile in Profile::ALL {
+        let mut client = client_like(profile);
+        client.open_fixture(LADDER, "tank.ladder");
+        let actions = offered(&mut client, "tank.ladder", "v1) * /ls2");
+        assert_eq!(actions[0].is_preferred, Some(true), "{profile:?}");
+        let edit = taken(&mut client, &actions, TOGETHER);
+        let (creates, edits) = text_edits(&edit);
+        assert_eq!(
+            creates,
+            matches!(profile, Profile::VsCode | Profile::Helix),
+            "{profile:?}"
+        );
+        let spec = edited("", &edits);
+        assert!(
+            spec.contains("//! accept v1 -> v2 & h & m"),
+            "{profile:?}: {spec}"
+        );
+    }
+}
+
+#[test]
+fn accepting_changes_only_what_follows_and_can_be_taken_back() {
+    let mut client = client_like(Profile::VsCode);
+    client.open_fixture(LADDER, "tank.ladder");
+    let actions = offered(&mut client, "tank.ladder", "v1) * /ls2");
+    let first = text_edits(&taken(&mut client, &actions, "Accept v1 -> v2 (handover")).1;
+    let spec = edited("", &first).replace("Input s", "Input  s");
+    client.open("tank.grafcet", &spec);
+    let actions = offered(&mut client, "tank.ladder", "ls1 * (v3");
+    let second = text_edits(&taken(&mut client, &actions, "Accept h -> v3")).1;
+    let after = edited(&spec, &second);
+    assert!(
+        after.contains("Input  s") && after.contains("//! accept h -> v3"),
+        "{after}"
+    );
+    client.replace_all("tank.grafcet", &after);
+    let actions = offered(&mut client, "tank.grafcet", "//! accept h");
+    let back = text_edits(&taken(&mut client, &actions, "Take back: h -> v3")).1;
+    let back = edited(&after, &back);
+    assert!(back.contains("Input  s"), "{back}");
+    assert_eq!(rules(&back), rules(&spec));
+}
+
+/// The rules and decisions of a spec, in whatever order they stand.
+fn rules(spec: &str) -> Vec<&str> {
+    let mut rules: Vec<&str> = spec
+        .lines()
+        .filter(|line| line.contains("|-") || line.starts_with("//!"))
+        .collect();
+    rules.sort_unstable();
+    rules
+}
+
+#[test]
+fn a_rule_that_the_ladder_no_longer_gives_is_mended() {
+    let mut client = client_like(Profile::VsCode);
+    client.open_fixture(LADDER, "tank.ladder");
+    let actions = offered(&mut client, "tank.ladder", "v1) * /ls2");
+    let first = text_edits(&taken(&mut client, &actions, TOGETHER)).1;
+    let spec = edited("", &first);
+    client.open("tank.grafcet", &spec);
+    assert_eq!(client.diagnostics("tank.grafcet"), []);
+    client.replace("tank.ladder", "(s + v1) * /ls2", "(s + v1) * /ls2 * /as");
+    let found = client.diagnostics("tank.grafcet");
+    assert!(!found.is_empty());
+    let stale = selected(&spec, found[0].range).to_owned();
+    let actions = offered(&mut client, "tank.grafcet", &stale);
+    let mended = text_edits(&taken(
+        &mut client,
+        &actions,
+        "Take over all that the ladder gives",
+    ))
+    .1;
+    client.replace_all("tank.grafcet", &edited(&spec, &mended));
+    assert_eq!(client.diagnostics("tank.grafcet"), []);
+}
+
+#[test]
+fn in_xml_the_same_is_offered() {
+    for form in ["L5X", "xml"] {
+        let mut client = client_like(Profile::VsCode);
+        let name = format!("tank.{form}");
+        client.open_fixture(
+            &format!("fixtures/neutralization/neutralization.{form}"),
+            &name,
+        );
+        let at = match form {
+            "L5X" => "v1)",
+            _ => "v1</variable>",
+        };
+        let actions = offered(&mut client, &name, at);
+        taken(&mut client, &actions, TOGETHER);
+    }
+}
+
+#[test]
+fn only_the_kinds_that_are_asked_for_are_offered() {
+    let mut client = client_like(Profile::VsCode);
+    client.open_fixture(LADDER, "tank.ladder");
+    let params = CodeActionParams {
+        text_document: TextDocumentIdentifier {
+            uri: client.uri("tank.ladder"),
+        },
+        range: Range::default(),
+        context: CodeActionContext {
+            only: Some(vec!["quickfix".into()]),
+            ..CodeActionContext::default()
+        },
+        work_done_progress_params: Default::default(),
+        partial_result_params: Default::default(),
+    };
+    assert_eq!(
+        client.request::<CodeActionRequest>(params),
+        Some(Vec::new())
+    );
+}
