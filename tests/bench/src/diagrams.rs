@@ -105,6 +105,12 @@ impl Peer {
         })
     }
 
+    /// Number of nodes, forgotten ones included until [`Self::forget`].
+    pub fn nodes(&self) -> usize {
+        self.manager
+            .with_manager_shared(|manager| manager.num_inner_nodes())
+    }
+
     /// Forgets all results that nobody holds, so that the next round begins as
     /// the first did.
     pub fn forget(&self) {
@@ -155,12 +161,11 @@ mod tests {
     #[test]
     fn the_peer_has_its_room_back_after_forgetting() {
         let peer = Peer::new(2).expect("memory");
-        let nodes = || peer.manager.with_manager_shared(|it| it.num_inner_nodes());
-        let before = nodes();
+        let before = peer.nodes();
         let circuits = circuits(&ladder::read(b"rung: a * b -> x").program);
         drop(build(&circuits.rungs[0], &peer));
-        assert!(nodes() > before);
+        assert!(peer.nodes() > before);
         peer.forget();
-        assert_eq!(nodes(), before);
+        assert_eq!(peer.nodes(), before);
     }
 }

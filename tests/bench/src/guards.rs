@@ -19,6 +19,10 @@ pub struct Guards {
     pub refused: usize,
     /// Guards that the peer refused.
     pub refused_by_peer: usize,
+    /// Nodes of the guards in `rungs`, those of each counted by itself.
+    pub nodes: usize,
+    /// Nodes of the same guards in the peer, where they share them.
+    pub nodes_of_peer: usize,
     /// The peer, with as many variables as the rungs have and nothing built.
     pub peer: Peer,
 }
@@ -60,13 +64,16 @@ pub fn of_corpus() -> Option<Guards> {
 /// # Panics
 ///
 /// If a guard differs: then one of the libraries, or its use, is wrong, and no
-/// time of it is worth knowing.
+/// time of it is worth knowing. If the peer has no room for all guards at once
+/// that it builds one by one, for the same reason.
 pub fn guards(rungs: Vec<Circuit>, variables: u32, own: Own) -> Option<Guards> {
     let mut guards = Guards {
         rungs: Vec::with_capacity(rungs.len()),
         all: 0,
         refused: 0,
         refused_by_peer: 0,
+        nodes: 0,
+        nodes_of_peer: 0,
         peer: Peer::new(variables)?,
     };
     for rung in rungs {
@@ -85,6 +92,7 @@ pub fn guards(rungs: Vec<Circuit>, variables: u32, own: Own) -> Option<Guards> {
             }
         }
         if both {
+            guards.nodes += ours.iter().flatten().map(Function::nodes).sum::<usize>();
             guards.rungs.push(rung);
         } else {
             // What it built before it refused would leave no room.
@@ -92,6 +100,13 @@ pub fn guards(rungs: Vec<Circuit>, variables: u32, own: Own) -> Option<Guards> {
             guards.peer.forget();
         }
     }
+    guards.peer.forget();
+    let rungs = guards.rungs.iter();
+    let held: Vec<_> = rungs.flat_map(|it| build(it, &guards.peer)).collect();
+    assert!(held.iter().all(Option::is_some), "the peer has no room");
+    guards.peer.forget();
+    guards.nodes_of_peer = guards.peer.nodes();
+    drop(held);
     guards.peer.forget();
     Some(guards)
 }

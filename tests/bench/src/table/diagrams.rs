@@ -42,6 +42,14 @@ pub fn rows() -> Vec<Row> {
         rows.push(Row::times(what, "OxiDD", (ours, theirs), None));
     }
     rows.push(Row {
+        what: "nodes of these guards".into(),
+        against: "OxiDD, which shares them".into(),
+        ours: guards.nodes.to_string(),
+        peer: guards.nodes_of_peer.to_string(),
+        ratio: format!("{:.2}", guards.nodes as f64 / guards.nodes_of_peer as f64),
+        aim: Aim::None,
+    });
+    rows.push(Row {
         what: format!("refused, of all {} guards", guards.all),
         against: "OxiDD".into(),
         ours: guards.refused.to_string(),
