@@ -4,6 +4,8 @@ use biodivine_lib_bdd::{Bdd, BddNode, BddVariable, BddVariableSet};
 
 use crate::{Atom, AtomId, Atoms, Budget, Expr, Stop};
 
+mod literals;
+
 /// A Boolean function over atoms: what an expression means.
 ///
 /// A function knows the atoms it depends on, its *support*, and holds a
@@ -150,7 +152,16 @@ impl Function {
 
     /// `self * /other`
     pub fn and_not(&self, other: &Self, budget: &Budget) -> Result<Self, Stop> {
-        self.and(&other.not(), budget)
+        if self.is_false() || other.is_false() {
+            return Ok(self.clone());
+        }
+        if other.is_true() {
+            return Ok(Self::constant(false));
+        }
+        if self.is_true() {
+            return Ok(other.not());
+        }
+        self.combine(other, biodivine_lib_bdd::op_function::and_not, budget)
     }
 
     /// True where exactly one of the two is.
@@ -183,7 +194,7 @@ impl Function {
 
     /// The function with `atom` replaced by another function.
     pub fn substitute(&self, atom: AtomId, by: &Self, budget: &Budget) -> Result<Self, Stop> {
-        if !self.depends_on(atom) {
+        if !self.depends_on(atom) || *by == Self::atom(atom) {
             return Ok(self.clone());
         }
         let high = self.restrict(atom, true).and(by, budget)?;
@@ -200,14 +211,29 @@ impl Function {
     /// The function with every atom but those of `keep` quantified away: what
     /// the function says about `keep` alone.
     pub fn project(&self, keep: &BTreeSet<AtomId>, budget: &Budget) -> Result<Self, Stop> {
-        let away: Vec<AtomId> = self
-            .support
-            .iter()
-            .copied()
-            .filter(|atom| !keep.contains(atom))
-            .collect();
+        let (kept, away): (Vec<AtomId>, Vec<AtomId>) =
+            self.support.iter().partition(|atom| keep.contains(atom));
+        let is_split_cheaper = 1_usize
+            .checked_shl(kept.len() as u32)
+            .is_some_and(|parts| parts <= away.len());
+        if is_split_cheaper {
+            return self.split(&kept, budget);
+        }
         away.into_iter()
             .try_fold(self.clone(), |function, atom| function.exists(atom, budget))
+    }
+
+    /// The projection on `kept`, one value of these after the other: what is
+    /// left of the function then can hold or cannot.
+    fn split(&self, kept: &[AtomId], budget: &Budget) -> Result<Self, Stop> {
+        let Some((&atom, rest)) = kept.split_first() else {
+            return Ok(Self::constant(!self.is_false()));
+        };
+        let low = self.restrict(atom, false).split(rest, budget)?;
+        let high = self.restrict(atom, true).split(rest, budget)?;
+        let atom = Self::atom(atom);
+        atom.and(&high, budget)?
+            .or(&low.and_not(&atom, budget)?, budget)
     }
 
     /// Whether raising `atom` from 0 to 1 never makes the function fall.

@@ -11,10 +11,13 @@
 //! parts over time. This crate measures; it tests nothing but its own
 //! generators and that both libraries of diagrams agree.
 
+pub mod circuit;
 pub mod diagrams;
+pub mod guards;
 pub mod measure;
 pub mod memory;
 pub mod pair;
 pub mod plant;
 pub mod real;
+pub mod whole;
 pub mod xml;

@@ -5,6 +5,7 @@
 //! `diagrams`.
 
 use std::io::Write as _;
+use std::process::ExitCode;
 
 mod table;
 
@@ -23,14 +24,21 @@ const PARTS: [Part; 5] = [
     ("diagrams", diagrams::rows),
 ];
 
-fn main() -> std::io::Result<()> {
+fn main() -> std::io::Result<ExitCode> {
     let words: Vec<String> = std::env::args().skip(1).collect();
     let mut out = std::io::stdout();
     if let [child, rungs] = &words[..]
         && child == CHILD
     {
         let peak = memory::of_this_process(rungs.parse().unwrap_or_default());
-        return writeln!(out, "{}", peak.unwrap_or_default());
+        writeln!(out, "{}", peak.unwrap_or_default())?;
+        return Ok(ExitCode::SUCCESS);
+    }
+    let is_part = |word: &String| PARTS.iter().any(|(name, _)| name == word);
+    if let Some(word) = words.iter().find(|word| !is_part(word)) {
+        let names = PARTS.map(|(name, _)| name).join(", ");
+        eprintln!("there is no part `{word}` to measure; the parts are {names}");
+        return Ok(ExitCode::from(2));
     }
     writeln!(out, "{}", table::HEAD)?;
     for (name, rows) in PARTS {
@@ -40,5 +48,5 @@ fn main() -> std::io::Result<()> {
             }
         }
     }
-    Ok(())
+    Ok(ExitCode::SUCCESS)
 }

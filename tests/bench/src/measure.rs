@@ -1,8 +1,14 @@
 //! Times that can be compared: taken in turn, several times, the median of
 //! each.
+//!
+//! Where the system tells it, a time is that which the processor worked for
+//! this thread. On a busy machine the time on the wall says how often others
+//! had their turn, and more of them have one while a long piece of work runs
+//! than while a short one does. All that is measured here works in the thread
+//! that calls it.
 
 use std::hint::black_box;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// A round lasts at least this long for each contender, so that the clock's
 /// own grain does not show.
@@ -10,11 +16,25 @@ const LEAST: Duration = Duration::from_millis(4);
 
 /// The time that `work` takes, and not that to drop what it gives.
 pub fn time<T>(work: impl FnOnce() -> T) -> Duration {
-    let start = Instant::now();
+    let start = now();
     let result = black_box(work());
-    let time = start.elapsed();
+    let time = now().saturating_sub(start);
     drop(result);
     time
+}
+
+/// What this thread has worked so far.
+#[cfg(unix)]
+fn now() -> Duration {
+    let time = rustix::time::clock_gettime(rustix::time::ClockId::ThreadCPUTime);
+    Duration::try_from(time).unwrap_or_default()
+}
+
+/// The time since the first call.
+#[cfg(not(unix))]
+fn now() -> Duration {
+    static FIRST: std::sync::OnceLock<std::time::Instant> = std::sync::OnceLock::new();
+    FIRST.get_or_init(std::time::Instant::now).elapsed()
 }
 
 /// The median time of each contender, which measures itself with [`time`].
@@ -53,6 +73,13 @@ pub fn ratio(time: Duration, peer: Duration) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    #[cfg(unix)]
+    fn waiting_is_no_work() {
+        let waiting = Duration::from_millis(200);
+        assert!(time(|| std::thread::sleep(waiting)) < waiting / 2);
+    }
 
     #[test]
     fn each_contender_has_a_turn_in_every_round() {

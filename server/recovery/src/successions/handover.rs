@@ -96,7 +96,7 @@ struct Index {
 
 impl Index {
     fn new(form: Form, endings: &[Ending], budget: &Budget) -> Self {
-        let by_literal = ByLiteral::new(endings.iter().map(|ending| &ending.ends), budget);
+        let by_literal = ByLiteral::new(endings.iter().map(|ending| &ending.ends));
         Self {
             form,
             by_common: ByCommon::new(endings, by_literal.common(), budget),
@@ -106,7 +106,7 @@ impl Index {
 
     fn sharing(&mut self, to: &State, budget: &Budget) -> BTreeSet<usize> {
         let starts = self.form.turns_on(to);
-        let mut found = self.by_literal.sharing(&starts, budget);
+        let mut found = self.by_literal.sharing(&starts);
         found.extend(self.by_common.sharing(&starts, budget));
         found
     }

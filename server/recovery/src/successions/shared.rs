@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeSet, HashMap};
 
-use logic::{AtomId, Budget, Function};
+use logic::{AtomId, Function};
 
 /// An atom that more conditions than this depend on does not tell them apart:
 /// every pair shares it.
@@ -57,13 +57,10 @@ pub(super) struct ByLiteral {
 
 impl ByLiteral {
     /// Indexes functions by their place in the iteration.
-    pub(super) fn new<'f>(
-        functions: impl IntoIterator<Item = &'f Function>,
-        budget: &Budget,
-    ) -> Self {
+    pub(super) fn new<'f>(functions: impl IntoIterator<Item = &'f Function>) -> Self {
         let mut users: HashMap<(AtomId, bool), Vec<usize>> = HashMap::new();
         for (at, function) in functions.into_iter().enumerate() {
-            for literal in literals(function, budget) {
+            for literal in literals(function) {
                 users.entry(literal).or_default().push(at);
             }
         }
@@ -72,8 +69,8 @@ impl ByLiteral {
 
     /// Places of the functions that share a literal with `function`, not
     /// counting literals that are [common](COMMON).
-    pub(super) fn sharing(&self, function: &Function, budget: &Budget) -> BTreeSet<usize> {
-        literals(function, budget)
+    pub(super) fn sharing(&self, function: &Function) -> BTreeSet<usize> {
+        literals(function)
             .into_iter()
             .filter_map(|literal| self.users.get(&literal))
             .filter(|users| users.len() <= COMMON)
@@ -93,26 +90,13 @@ impl ByLiteral {
 /// know them would cost more than comparing a few pairs for nothing.
 const LARGE: usize = 300;
 
-fn literals(function: &Function, budget: &Budget) -> Vec<(AtomId, bool)> {
+fn literals(function: &Function) -> Vec<(AtomId, bool)> {
     if function.nodes() > LARGE {
         let atoms = function.support().iter();
         return atoms
             .flat_map(|atom| [(*atom, false), (*atom, true)])
             .collect();
     }
-    let mut literals = Vec::new();
-    for &atom in function.support() {
-        let (low, high) = (
-            function.restrict(atom, false),
-            function.restrict(atom, true),
-        );
-        // Where the budget does not allow to tell, both signs count.
-        if low.implies(&high, budget) != Ok(true) {
-            literals.push((atom, false));
-        }
-        if high.implies(&low, budget) != Ok(true) {
-            literals.push((atom, true));
-        }
-    }
-    literals
+    let literals = function.literals().into_iter();
+    literals.map(|it| (it.atom, it.positive)).collect()
 }

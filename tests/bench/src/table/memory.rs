@@ -27,7 +27,11 @@ pub fn rows() -> Vec<Row> {
         ours: format!("{is:.1} MB"),
         peer: format!("{:.1} MB", megabytes(small)),
         ratio: format!("{:.2}", large as f64 / small as f64),
-        aim: Aim::Most { limit: MOST, is },
+        aim: Aim::Most {
+            limit: MOST,
+            is,
+            unit: " MB",
+        },
     }]
 }
 

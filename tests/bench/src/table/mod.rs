@@ -30,21 +30,25 @@ pub struct Row {
 pub enum Aim {
     /// No aim is set: the number is there to be known.
     None,
-    /// At most so much.
-    Most { limit: f64, is: f64 },
-    /// At least so much.
+    /// At most so much of a unit, which ratios have none of.
+    Most {
+        limit: f64,
+        is: f64,
+        unit: &'static str,
+    },
+    /// At least so many times as fast.
     Least { limit: f64, is: f64 },
 }
 
 impl fmt::Display for Aim {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (sign, limit, is_met) = match *self {
+        let (sign, limit, unit, is_met) = match *self {
             Self::None => return f.write_str("none"),
-            Self::Most { limit, is } => ("at most", limit, is <= limit),
-            Self::Least { limit, is } => ("at least", limit, is >= limit),
+            Self::Most { limit, is, unit } => ("at most", limit, unit, is <= limit),
+            Self::Least { limit, is } => ("at least", limit, "", is >= limit),
         };
         let answer = if is_met { "met" } else { "MISSED" };
-        write!(f, "{sign} {limit}: {answer}")
+        write!(f, "{sign} {limit}{unit}: {answer}")
     }
 }
 
@@ -63,7 +67,11 @@ impl Row {
             ours: shown(ours),
             peer: shown(peer),
             ratio: format!("{is:.2}"),
-            aim: limit.map_or(Aim::None, |limit| Aim::Most { limit, is }),
+            aim: limit.map_or(Aim::None, |limit| Aim::Most {
+                limit,
+                is,
+                unit: "",
+            }),
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use bench::measure::{in_turn, time};
 use bench::plant::plant;
-use logic::Budget;
+use bench::whole;
 
 use super::Row;
 
@@ -13,21 +13,13 @@ const MOST: f64 = 11.0;
 
 /// A row for each larger program.
 pub fn rows() -> Vec<Row> {
-    let texts = [1_000, 3_000, 10_000].map(|rungs| (rungs, plant(rungs)));
-    let budget = Budget::default();
-    let whole = |text: &str| {
-        let reading = ladder::read(text.as_bytes());
-        recovery::analyse(&reading.program, &budget)
-            .successions
-            .len()
-    };
-    let [(_, small), (_, middle), (_, large)] = &texts;
+    let [small, middle, large] = [1_000, 3_000, 10_000].map(plant);
     let times = in_turn(
         ROUNDS,
         &mut [
-            &mut || time(|| whole(small)),
-            &mut || time(|| whole(middle)),
-            &mut || time(|| whole(large)),
+            &mut || time(|| whole::successions(&small)),
+            &mut || time(|| whole::successions(&middle)),
+            &mut || time(|| whole::successions(&large)),
         ],
     );
     let against = "itself, 1,000 rungs";
