@@ -68,7 +68,7 @@ pub(super) fn read<'t>(source: Source<'t>, diagnostics: &mut Vec<Diagnostic>) ->
         source,
         nodes: Vec::new(),
     };
-    if let Err(diagnostic) = document.fill() {
+    if let Err(diagnostic) = document.fill(diagnostics) {
         diagnostics.push(*diagnostic);
     }
     document
@@ -81,7 +81,7 @@ impl<'t> Document<'t> {
         Some(Element { document: self, at })
     }
 
-    fn fill(&mut self) -> Result<(), Box<Diagnostic>> {
+    fn fill(&mut self, diagnostics: &mut Vec<Diagnostic>) -> Result<(), Box<Diagnostic>> {
         let text = self.source.text;
         let mut reader = Reader::from_str(text);
         let mut open: Vec<usize> = Vec::new();
@@ -128,11 +128,14 @@ impl<'t> Document<'t> {
                             &open,
                         );
                     }
-                    None => return Err(self.unknown_entity(start, end)),
+                    None => {
+                        diagnostics.push(self.unknown_entity(start, end));
+                        self.add_text(start..end, &open);
+                    }
                 },
                 Event::DocType(doctype) => {
                     if doctype.contains('[') {
-                        return Err(self.refused_doctype(start, end));
+                        diagnostics.push(self.refused_doctype(start, end));
                     }
                 }
                 Event::Comment(_) | Event::Decl(_) | Event::PI(_) => {}
@@ -267,25 +270,21 @@ impl<'t> Document<'t> {
         )
     }
 
-    fn unknown_entity(&self, start: usize, end: usize) -> Box<Diagnostic> {
+    fn unknown_entity(&self, start: usize, end: usize) -> Diagnostic {
         let written = self.source.text.get(start..end).unwrap_or_default();
         let message = format!("`{written}` is no entity that XML defines");
         let place = self.source.span(start, end);
-        Box::new(
-            Diagnostic::new(codes::XML_SYNTAX, place, message)
-                .help("write the character itself, or its number such as `&#233;`"),
-        )
+        Diagnostic::new(codes::XML_SYNTAX, place, message)
+            .help("write the character itself, or its number such as `&#233;`; it stays as it is")
     }
 
-    fn refused_doctype(&self, start: usize, end: usize) -> Box<Diagnostic> {
-        Box::new(
-            Diagnostic::new(
-                codes::XML_REFUSED,
-                self.source.span(start, end),
-                "the document type declares entities or elements of its own, which are not expanded",
-            )
-            .help("remove the `<!DOCTYPE ...>` declaration"),
+    fn refused_doctype(&self, start: usize, end: usize) -> Diagnostic {
+        Diagnostic::new(
+            codes::XML_REFUSED,
+            self.source.span(start, end),
+            "the document type declares entities or elements of its own, which are not expanded",
         )
+        .help("remove the `<!DOCTYPE ...>` declaration; the rest is read")
     }
 
     fn too_deep(&self, start: usize, end: usize) -> Box<Diagnostic> {
@@ -361,7 +360,6 @@ mod tests {
             ("<a><b/><![CDATA[ x", "G1006"),
             ("<a><b/></c></a>", "G1004"),
             ("<a><b/><c x/></a>", "G1004"),
-            ("<a><b/>&nbsp;</a>", "G1004"),
         ] {
             let (document, codes) = check(text);
             assert_eq!(codes, [code], "{text}");
@@ -372,9 +370,19 @@ mod tests {
     }
 
     #[test]
+    fn an_entity_that_nothing_defines_stays_as_it_is() {
+        let (document, codes) = check("<a><b/>&nbsp;<c/></a>");
+        assert_eq!(codes, ["G1004"]);
+        let root = document.root().expect("root");
+        assert!(root.is_complete() && root.child("c").is_some());
+        assert_eq!(root.passage().text(), "&nbsp;");
+    }
+
+    #[test]
     fn constructs_that_could_grow_without_bound_are_refused() {
-        let (_, codes) = check("<!DOCTYPE a [<!ENTITY x \"y\">]><a>&x;</a>");
-        assert_eq!(codes, ["G1005"]);
+        let (document, codes) = check("<!DOCTYPE a [<!ENTITY x \"y\">]><a>&x;</a>");
+        assert_eq!(codes, ["G1005", "G1004"]);
+        assert_eq!(document.root().expect("root").passage().text(), "&x;");
         let deep = "<a>".repeat(300);
         let (_, codes) = check(&deep);
         assert_eq!(codes, ["G1005"]);
