@@ -11,7 +11,7 @@ use end_to_end::{Ended, path, update_is_asked_for};
 use crate::gradus;
 
 /// What is run on each file: what is wrong with it, and what could be read.
-const COMMANDS: [&[&str]; 2] = [&["check", "--hints"], &["conditions"]];
+const COMMANDS: [&[&str]; 2] = [&["check"], &["conditions"]];
 
 /// The other commands that read, asked only to end well.
 const OTHERS: [&[&str]; 3] = [
