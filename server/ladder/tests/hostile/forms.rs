@@ -29,19 +29,19 @@ pub const FORMS: &[Form] = &[
         plcopen(&"<a>".repeat(n))
     }),
     form("neutral text branches", &["G1201"], |n| {
-        format!("XIC(a){}", "[".repeat(n))
+        neutral(&"[".repeat(n))
     }),
     form("neutral text branches that close", &["G1201"], |n| {
-        format!("{}XIC(a){}OTE(b);", "[".repeat(n), "]".repeat(n))
+        neutral(&format!("{}XIC(c){}OTE(d);", "[".repeat(n), "]".repeat(n)))
     }),
     form("neutral text operands", &["G1201"], |n| {
-        format!("XIC(a)CPT(b,{}", "(".repeat(n))
+        neutral(&format!("CPT(b,{}", "(".repeat(n)))
     }),
     form("neutral text operands that close", &[], |n| {
         format!("CPT(b,{}a{});", "(".repeat(n), ")".repeat(n))
     }),
     form("neutral text indices", &["G1201"], |n| {
-        format!("XIC(a)OTE(b{}", "[".repeat(n))
+        neutral(&format!("OTE(b{}", "[".repeat(n)))
     }),
     form("neutral text indices that close", &[], |n| {
         format!("XIC(a{}0{})OTE(b);", "[b".repeat(n), "]".repeat(n))
@@ -178,19 +178,19 @@ pub const FORMS: &[Form] = &[
         )
     }),
     form("neutral text rungs that do not close", &["G1201"], |n| {
-        format!("XIC(a)OTE(b);{}", "XIC(a;[XIC(b);".repeat(n))
+        neutral(&"XIC(a;[XIC(b);".repeat(n))
     }),
     form("neutral text quotes that do not close", &["G1201"], |n| {
-        format!("XIC(a)OTE(b);XIC({}", "'$".repeat(n))
+        neutral(&format!("XIC({}", "'$".repeat(n)))
     }),
     form("neutral text words", &["G1201"], |n| {
-        format!("XIC(a)OTE(b);{};", "NOP ".repeat(n))
+        neutral(&format!("{};", "NOP ".repeat(n)))
     }),
     form("neutral text signs", &["G1201"], |n| {
-        format!("XIC(a)OTE(b);{};", "$ ".repeat(n))
+        neutral(&format!("{};", "$ ".repeat(n)))
     }),
     form("neutral text comments", &["G1201"], |n| {
-        format!("XIC(a)OTE(b);{}", "RC: ".repeat(n))
+        neutral(&"RC: ".repeat(n))
     }),
     form("ladder quotes", &["G1101"], |n| ladder(&"\"".repeat(n))),
     form("ladder arrows", &["G1101"], |n| ladder(&" -> ".repeat(n))),
@@ -364,7 +364,7 @@ pub const FORMS: &[Form] = &[
     }),
 ];
 
-fn l5x(inside: &str) -> String {
+pub fn l5x(inside: &str) -> String {
     format!("<RSLogix5000Content><Controller>{inside}</Controller></RSLogix5000Content>")
 }
 
@@ -384,7 +384,7 @@ fn l5k(rungs: &str) -> String {
 
 const POU: &str = "<pou name=\"p\" pouType=\"program\"><body><LD/></body></pou>";
 
-fn plcopen(elements: &str) -> String {
+pub fn plcopen(elements: &str) -> String {
     format!(
         "<project><types><pous><pou name=\"p\" pouType=\"program\"><body><LD>\
          <leftPowerRail localId=\"0\"/>{elements}</LD></body></pou></pous></types></project>"
@@ -426,6 +426,10 @@ fn connected(n: usize, sources: fn(usize) -> Vec<usize>) -> String {
 
 fn ladder(condition: &str) -> String {
     format!("rung: a -> b\nrung: {condition}\n")
+}
+
+fn neutral(rungs: &str) -> String {
+    format!("XIC(a)OTE(b);\n{rungs}")
 }
 
 fn drawn(rows: &str) -> String {

@@ -1,46 +1,50 @@
-mod forms;
-mod places;
+//! Texts that are cut, encoded otherwise, nested too deep, far too long, or
+//! faulty in thousands of places: each is read, within a small stack, with a
+//! finding that says what is wrong and in time that grows with the text.
+//!
+//! Small ones with what the commands say about them are in `fixtures/hostile`.
 
-#[test]
-fn probe() {
-    for form in forms::FORMS {
-        let mut times = vec![];
-        let mut codes = std::collections::BTreeMap::new();
-        let mut rungs = 0;
-        let mut format = ladder::Format::Unknown;
-        let from: usize = std::env::var("FROM")
-            .ok()
-            .and_then(|n| n.parse().ok())
-            .unwrap_or(0);
-        let at = forms::FORMS
-            .iter()
-            .position(|f| std::ptr::eq(f, form))
-            .unwrap();
-        if at < from {
-            continue;
-        }
-        println!("{at} {}", form.name);
-        for n in [1000, 2000, 4000] {
-            let text = (form.text)(n);
-            let start = std::time::Instant::now();
-            let reading = ladder::read(text.as_bytes());
-            times.push(start.elapsed().as_micros() as f64 / 1000.0);
-            rungs = reading.program.rungs().count();
-            format = reading.program.format;
-            assert_eq!(places::outside(text.as_bytes(), &reading), None);
-            codes.clear();
-            for d in &reading.diagnostics {
-                *codes.entry(d.code.to_string()).or_insert(0) += 1;
-            }
-        }
-        let flag = if times[2] > 5.0 * times[0].max(0.5) {
-            "  <<<<<"
-        } else {
-            ""
-        };
-        println!(
-            "{:45} {:?} {:8.1} {:8.1} {:8.1} rungs {rungs} {codes:?}{flag}",
-            form.name, format, times[0], times[1], times[2]
-        );
-    }
+mod cut;
+mod encoded;
+mod forms;
+mod linear;
+mod places;
+mod read;
+
+use ladder::Reading;
+
+/// Stack of the thread that reads: a quarter of what threads of Rust have, or
+/// all of that where nothing is optimised and frames are several times larger.
+const STACK: usize = if cfg!(debug_assertions) {
+    2 << 20
+} else {
+    512 << 10
+};
+
+/// Runs `work` on a thread with a small stack: a walk that goes deeper the
+/// larger its text is does not come back from there.
+fn on_a_small_stack<T: Send>(work: impl FnOnce() -> T + Send) -> T {
+    std::thread::scope(|scope| {
+        std::thread::Builder::new()
+            .stack_size(STACK)
+            .spawn_scoped(scope, work)
+            .expect("a thread")
+            .join()
+            .expect("work that comes back")
+    })
+}
+
+/// Reads `bytes`, and looks whether each finding lies in the text and says
+/// something.
+fn read(bytes: &[u8]) -> Reading {
+    let reading = ladder::read(bytes);
+    assert_eq!(places::outside(bytes, &reading), None);
+    assert!(reading.diagnostics.iter().all(|it| !it.message.is_empty()));
+    reading
+}
+
+/// Whether a finding has this code.
+fn gives(reading: &Reading, code: &str) -> bool {
+    let mut codes = reading.diagnostics.iter().map(|it| it.code.to_string());
+    codes.any(|found| found == code)
 }
