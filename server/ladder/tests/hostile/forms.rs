@@ -135,10 +135,10 @@ pub const FORMS: &[Form] = &[
     form("L5X sections", &["G1201"], |n| {
         l5x_rung(&"<![CDATA[XIC(a)]]>".repeat(n))
     }),
-    form("L5X attributes", &[], |n| {
+    form("L5X attributes", &["G1004"], |n| {
         l5x(&format!("<Programs {}/>", "Name=\"a\" ".repeat(n)))
     }),
-    form("PLCopen attributes", &[], |n| {
+    form("PLCopen attributes", &["G1004"], |n| {
         plcopen(&format!("<contact {}/>", "localId=\"1\" ".repeat(n)))
     }),
     form("PLCopen attributes without value", &["G1004"], |n| {
