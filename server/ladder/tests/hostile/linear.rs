@@ -66,9 +66,9 @@ fn twice_the_text_takes_twice_the_work() {
 }
 
 /// Most bytes held at once for each byte of a text that repeats one character.
-/// The most is taken where each is a fault with a finding of its own, and by tabs
-/// in drawings, each of which stands for eight columns.
-const MOST_PER_BYTE: u64 = 600;
+/// The most is taken where each is a rung or a fault with a finding of its own,
+/// and by tabs in drawings, each of which stands for eight columns.
+const MOST_PER_BYTE: u64 = 1_000;
 
 #[test]
 fn no_character_repeated_takes_memory_out_of_proportion() {
