@@ -52,7 +52,7 @@ fn nesting_is_refused_at_its_place() {
 #[test]
 fn what_nests_less_is_read_printed_and_computed() {
     for (open, close) in [("(a + b*", ")"), ("/(a*", ")"), ("rise(", ")"), ("^", "")] {
-        let text = open.repeat(150) + "a" + &close.repeat(150);
+        let text = open.repeat(95) + "a" + &close.repeat(95);
         on_a_small_stack(|| {
             let expr = notation::parse(&text).expect("an expression");
             let printed = expr.to_string();
