@@ -3,6 +3,7 @@
 
 mod answers;
 mod convert;
+mod hostile;
 #[cfg(unix)]
 mod interrupt;
 #[cfg(unix)]

@@ -83,7 +83,16 @@ fn decode(bytes: &[u8]) -> Result<Source<'_>, Box<Diagnostic>> {
     if bytes.contains(&0)
         && let Some(at) = bytes.iter().position(|&byte| byte == 0)
     {
-        return refuse(at, "the file holds a NUL byte, so it is binary or UTF-16");
+        if is_utf16(bytes) {
+            return refuse(
+                0,
+                "the file is UTF-16 without a byte order mark, and only UTF-8 is read",
+            );
+        }
+        return refuse(
+            at,
+            "the file holds a NUL byte, so it is binary or not UTF-8",
+        );
     }
     let base = if bytes.starts_with(b"\xEF\xBB\xBF") {
         3
@@ -97,6 +106,14 @@ fn decode(bytes: &[u8]) -> Result<Source<'_>, Box<Diagnostic>> {
             "the bytes from here on are not valid UTF-8",
         ),
     }
+}
+
+/// Whether each of the first characters is an ASCII one in two bytes.
+fn is_utf16(bytes: &[u8]) -> bool {
+    let mut pairs = bytes.chunks_exact(2).take(32).peekable();
+    let is_little_endian = pairs.peek().is_some_and(|pair| pair[1] == 0);
+    pairs.peek().is_some()
+        && pairs.all(|pair| (pair[1] == 0, pair[0] == 0) == (is_little_endian, !is_little_endian))
 }
 
 /// The form that `text` is in, if it is one that is known.

@@ -94,7 +94,8 @@ fn mean_the_same(a: &Expr, b: &Expr) {
 }
 
 /// Goes all the way from the bytes of a ladder to a spec, its text, and what
-/// that text says.
+/// that text says. Texts are compared, not specs: a name with a quote or a line
+/// end in it, which no text can hold, is written with `'` in their place.
 pub fn recovers(bytes: &[u8]) {
     let reading = ladder::read(bytes);
     let budget = small();
@@ -102,11 +103,7 @@ pub fn recovers(bytes: &[u8]) {
     let spec = recovery::conversion::spec(&analysis, &[], &budget);
     let text = grafcet::write(&spec);
     let read = grafcet::read(&text);
-    assert!(
-        read.spec.says_the_same(&spec),
-        "written and read: {text}\n{:?}",
-        read.diagnostics
-    );
+    assert_eq!(grafcet::write(&read.spec), text, "{:?}", read.diagnostics);
 }
 
 /// Little enough that no input takes long.

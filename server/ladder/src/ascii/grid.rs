@@ -10,14 +10,18 @@ use crate::reading::Source;
 /// Columns between tab stops.
 const TAB: usize = 8;
 
+/// Most columns of all rows together that are read. A tab takes one byte of a
+/// file and up to eight columns of a drawing, and no drawing is so large.
+pub(super) const MOST_COLUMNS: usize = 1 << 24;
+
 /// A character at a column.
 #[derive(Clone, Copy, Debug)]
 struct Cell {
     character: char,
     /// Its first byte in the file, byte order mark included.
-    at: usize,
+    at: u32,
     /// The byte behind it.
-    end: usize,
+    end: u32,
 }
 
 /// A line.
@@ -31,6 +35,9 @@ pub(super) struct Row {
 pub(super) struct Grid {
     rows: Vec<Row>,
     end: usize,
+    /// The place in the file from which on nothing is read, if the drawing
+    /// is too large.
+    pub(super) cut: Option<usize>,
 }
 
 impl Grid {
@@ -38,6 +45,8 @@ impl Grid {
         let mut rows = vec![Row::default()];
         let mut notes = notes.iter().peekable();
         let mut after_return = false;
+        let mut columns = 0;
+        let mut cut = None;
         for (at, character) in source.text.char_indices() {
             while notes.next_if(|note| note.end <= at).is_some() {}
             let noted = notes.peek().is_some_and(|note| note.start <= at);
@@ -55,8 +64,12 @@ impl Grid {
                 '\t' => TAB - row.cells.len() % TAB,
                 _ => 1,
             };
-            let at = source.base + at;
-            let end = at + character.len_utf8();
+            columns += width;
+            if columns > MOST_COLUMNS {
+                cut = Some(source.base + at);
+                break;
+            }
+            let Span { start: at, end } = source.span(at, at + character.len_utf8());
             let character = match character {
                 _ if noted => ' ',
                 c if c.is_whitespace() || c == '\u{feff}' => ' ',
@@ -68,6 +81,7 @@ impl Grid {
         Self {
             rows,
             end: source.base + source.text.len(),
+            cut,
         }
     }
 
@@ -95,7 +109,10 @@ impl Grid {
         };
         let last = columns.end.checked_sub(1).and_then(|at| row.cells.get(at));
         match (row.cells.get(columns.start), last) {
-            (Some(first), Some(last)) => Span::new(first.at, last.end),
+            (Some(first), Some(last)) => Span {
+                start: first.at,
+                end: last.end,
+            },
             _ => Span::at(self.end),
         }
     }

@@ -31,6 +31,8 @@ mod rungs;
 mod symbols;
 mod wires;
 
+use source::{Diagnostic, Span, codes};
+
 use crate::reading::{Reading, Source};
 use crate::{Format, Program, Role, Routine};
 
@@ -42,21 +44,31 @@ pub(crate) fn looks_like_it(text: &str) -> bool {
     let (notes, _) = notes::notes(source);
     let grid = grid::Grid::new(source, &notes);
     let lines = grid.rows().filter_map(|row| row.text_from_first_mark());
-    let drawn: Vec<String> = lines
+    let mut drawn = lines
         .skip_while(|line| symbols::label(line).is_some())
-        .collect();
-    let is_rail = |line: &str| line.starts_with(['|', '+']);
-    let leads_somewhere = |line: &String| {
+        .peekable();
+    let is_rail = |line: &String| line.starts_with(['|', '+']);
+    let leads_somewhere = |line: &str| {
         line.starts_with("+-") || line.starts_with("|-") && line.contains(['[', '(', '>', '/'])
     };
-    drawn.first().is_some_and(|line| is_rail(line))
-        && (drawn.iter().any(leads_somewhere) || drawn.iter().all(|line| line == "|"))
+    if !drawn.peek().is_some_and(is_rail) {
+        return false;
+    }
+    let mut only_a_rail = true;
+    for line in drawn {
+        if leads_somewhere(&line) {
+            return true;
+        }
+        only_a_rail &= line == "|";
+    }
+    only_a_rail
 }
 
 /// Reads the drawing.
 pub(crate) fn read(source: Source<'_>) -> Reading {
     let (notes, mut diagnostics) = notes::notes(source);
     let grid = grid::Grid::new(source, &notes);
+    diagnostics.extend(grid.cut.map(too_large));
     let boxes = boxes::find(&grid);
     let drawing = symbols::drawing(&grid, boxes, &mut diagnostics);
     let wires = wires::trace(&drawing);
@@ -74,6 +86,15 @@ pub(crate) fn read(source: Source<'_>) -> Reading {
         program: program.into(),
         diagnostics,
     }
+}
+
+fn too_large(cut: usize) -> Diagnostic {
+    let message = format!(
+        "the drawing has more than {} columns in all its rows",
+        grid::MOST_COLUMNS
+    );
+    Diagnostic::new(codes::TOO_LARGE_FILE, Span::at(cut), message)
+        .help("divide it into several files; what stands before this place is read")
 }
 
 #[cfg(test)]

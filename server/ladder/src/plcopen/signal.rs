@@ -6,6 +6,8 @@
 //! one is used is the consumer's choice: a coil takes power, an adder takes
 //! the term.
 
+use std::rc::Rc;
+
 use logic::{Name, Relation};
 use petgraph::graph::NodeIndex;
 use source::Span;
@@ -83,7 +85,7 @@ pub(super) struct Term {
     pub(super) text: Name,
     pub(super) span: Span,
     pub(super) form: Form,
-    pub(super) reads: Vec<Operand>,
+    pub(super) reads: Rc<[Operand]>,
     /// The function that made it; `MOVE` where none did.
     pub(super) mnemonic: Name,
 }
@@ -112,7 +114,7 @@ impl Term {
         let value = text.value.as_str();
         let place = |range: &std::ops::Range<usize>| part(text, range);
         let rewritten = names.rewrite(unit, value);
-        let reads: Vec<_> = rewritten
+        let reads: Rc<[Operand]> = rewritten
             .reads
             .iter()
             .map(|(name, range)| Operand::new(name.clone(), place(range)))
@@ -150,7 +152,7 @@ impl Term {
             text: operand.name.clone(),
             span: operand.span,
             form: Form::Variable,
-            reads: vec![operand],
+            reads: Rc::new([operand]),
             mnemonic: "MOVE".into(),
         }
     }
@@ -160,19 +162,14 @@ impl Term {
             text: truth_word(truth).into(),
             span,
             form: Form::Truth(truth),
-            reads: Vec::new(),
+            reads: Rc::new([]),
             mnemonic: "MOVE".into(),
         }
     }
 
     /// `text`, made of `parts`; a made-up name if that is too long.
     pub(super) fn composed(text: String, parts: &[Term], span: Span, made_up: &Name) -> Self {
-        let mut reads: Vec<Operand> = Vec::new();
-        for read in parts.iter().flat_map(|part| &part.reads).take(LONGEST) {
-            if !reads.contains(read) {
-                reads.push(read.clone());
-            }
-        }
+        let reads = reads_of(parts);
         let text = if text.len() > LONGEST {
             made_up.clone()
         } else {
@@ -249,10 +246,29 @@ impl Term {
             Form::Sum(variable, amount) if *variable == target.name => Value::Increment(*amount),
             _ => Value::Term {
                 text: self.text.clone(),
-                reads: self.reads.clone(),
+                reads: self.reads.to_vec(),
             },
         }
     }
+}
+
+/// What `parts` read, at most [`LONGEST`] of it. A long series hands its list
+/// on from contact to contact; once it is full, all share one.
+fn reads_of(parts: &[Term]) -> Rc<[Operand]> {
+    let Some((first, rest)) = parts.split_first() else {
+        return Rc::new([]);
+    };
+    let room = LONGEST.saturating_sub(first.reads.len());
+    if room == 0 || rest.iter().all(|part| part.reads.is_empty()) {
+        return Rc::clone(&first.reads);
+    }
+    let mut reads = first.reads.to_vec();
+    for read in rest.iter().flat_map(|part| part.reads.iter()).take(room) {
+        if !reads.contains(read) {
+            reads.push(read.clone());
+        }
+    }
+    reads.into()
 }
 
 /// Whether the text is a name, a call, or stands in brackets.

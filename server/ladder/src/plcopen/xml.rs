@@ -9,6 +9,8 @@
 //! read. Namespaces are ignored: exporters disagree about them, and the local
 //! names never clash.
 
+use std::collections::HashSet;
+
 use quick_xml::Reader;
 use quick_xml::errors::{Error, SyntaxError};
 use quick_xml::events::{BytesRef, BytesStart, Event};
@@ -243,7 +245,14 @@ impl<'t> Growth<'t, '_> {
                 Ok(Event::GeneralRef(reference)) => self.refer(&reference, span),
                 Ok(Event::DocType(text)) => {
                     if text.contains('[') || text.contains("<!ENTITY") {
-                        self.refuse(span, "the document type declares entities of its own");
+                        self.diagnostics.push(
+                            Diagnostic::new(
+                                codes::XML_REFUSED,
+                                span,
+                                "the document type declares entities or elements of its own, which are not expanded",
+                            )
+                            .help("remove the `<!DOCTYPE ...>` declaration; the rest is read"),
+                        );
                     }
                 }
                 Ok(Event::Eof) => return self.end(end),
@@ -265,17 +274,25 @@ impl<'t> Growth<'t, '_> {
         let length = tag.name().into_inner().len();
         let qualified = self.source.text.get(start + 1..start + 1 + length);
         let mut attributes = Vec::new();
-        // Comparing every attribute with every other would cost a square.
+        // The library compares every attribute with every other, which would
+        // cost a square.
         for attribute in tag.attributes().with_checks(false) {
             match attribute {
                 Ok(attribute) => {
                     attributes.extend(self.attribute(attribute.key.into_inner(), &attribute.value))
                 }
-                Err(error) => self.diagnostics.push(
-                    Diagnostic::new(codes::XML_SYNTAX, span, format!("an attribute: {error}"))
-                        .help("the other attributes of the tag are read"),
+                Err(_) => self.diagnostics.push(
+                    Diagnostic::new(
+                        codes::XML_SYNTAX,
+                        span,
+                        "an attribute is not of the form name=\"value\"",
+                    )
+                    .help("the other attributes of the tag are read; export the file again"),
                 ),
             }
+        }
+        if may_repeat(&attributes) {
+            self.report_repeated(tag);
         }
         let at = self.nodes.len();
         self.nodes.push(Node {
@@ -286,6 +303,25 @@ impl<'t> Growth<'t, '_> {
         });
         self.hold(Content::Tag(at));
         at
+    }
+
+    /// Reports the first attribute whose name, prefix and all, an earlier one
+    /// bears.
+    fn report_repeated(&mut self, tag: &BytesStart<'_>) {
+        let mut seen = HashSet::new();
+        let mut attributes = tag.attributes();
+        let mut attributes = attributes.with_checks(false).flatten();
+        let Some(repeated) = attributes.find(|it| !seen.insert(it.key.into_inner())) else {
+            return;
+        };
+        let key = repeated.key.into_inner();
+        if let Some((_, value)) = self.attribute(key, &repeated.value) {
+            let message = format!("the attribute `{key}` stands here twice");
+            self.diagnostics.push(
+                Diagnostic::new(codes::XML_SYNTAX, value.span, message)
+                    .help("remove one of them; the first counts"),
+            );
+        }
     }
 
     /// The attribute `key="value"`, both borrowed from the text.
@@ -326,9 +362,11 @@ impl<'t> Growth<'t, '_> {
                 Diagnostic::new(
                     codes::XML_SYNTAX,
                     span,
-                    format!("`&{name};` is not a character that XML knows"),
+                    format!("`&{name};` is no entity that XML defines"),
                 )
-                .help("write the character itself"),
+                .help(
+                    "write the character itself, or its number such as `&#233;`; it stays as it is",
+                ),
             );
             return self.push(format!("&{name};"), span);
         };
@@ -396,15 +434,12 @@ impl<'t> Growth<'t, '_> {
     }
 
     fn too_deep(&mut self, span: Span, end: usize) {
-        self.refuse(span, "elements nest more than 256 deep");
-        self.close_all(end);
-    }
-
-    fn refuse(&mut self, span: Span, what: &str) {
+        let message = format!("elements are nested deeper than {DEEPEST}");
         self.diagnostics.push(
-            Diagnostic::new(codes::XML_REFUSED, span, what)
-                .help("export the file again, or remove that part"),
+            Diagnostic::new(codes::XML_REFUSED, span, message)
+                .help("no export nests so deep; what stood before this place is read"),
         );
+        self.close_all(end);
     }
 
     fn wrong(&mut self, error: &Error, at: usize) {
@@ -418,18 +453,34 @@ impl<'t> Growth<'t, '_> {
                 error,
                 Error::Syntax(SyntaxError::UnclosedComment | SyntaxError::UnclosedCData)
             );
-        let (code, help) = if breaks_off {
+        let (code, message, help) = if breaks_off {
             (
                 codes::CUT_SHORT,
+                "the file ends inside what begins here".to_owned(),
                 "copy or export it again; what was complete is read",
             )
         } else {
-            (codes::XML_SYNTAX, "mend it, or export the file again")
+            (
+                codes::XML_SYNTAX,
+                format!("the XML is not well formed: {error}"),
+                "mend it, or export the file again",
+            )
         };
         let span = self.source.span(at, at);
         self.diagnostics
-            .push(Diagnostic::new(code, span, error.to_string()).help(help));
+            .push(Diagnostic::new(code, span, message).help(help));
     }
+}
+
+/// Whether two attributes may bear one name. Nearly all tags have few of them,
+/// and comparing these costs less than hashing.
+fn may_repeat(attributes: &[(&str, Text)]) -> bool {
+    const FEW: usize = 16;
+    let is_known = |(at, (name, _)): (usize, &(&str, Text))| {
+        let mut before = attributes.iter().take(at);
+        before.any(|(other, _)| other == name)
+    };
+    attributes.len() > FEW || attributes.iter().enumerate().any(is_known)
 }
 
 /// A qualified name without its prefix.

@@ -31,6 +31,8 @@ const DEEPEST: usize = 8;
 pub(super) struct Names {
     /// Names of the scopes.
     scopes: Vec<String>,
+    /// By name in lower case, the first scope that bears it.
+    scopes_by_name: HashMap<String, Scope>,
     roots: Vec<Root>,
     places: HashMap<(Scope, String), usize>,
     /// The key of an aliased address and the alias.
@@ -76,16 +78,13 @@ struct LocatedPart {
 impl Names {
     /// The names that a project declares.
     pub(super) fn declared(project: &Project<'_>) -> Self {
-        let mut names = Self {
-            scopes: vec![String::new()],
-            ..Self::default()
-        };
+        let mut names = Self::default();
+        names.add_scope("");
         for tag in &project.tags {
             names.declare(0, tag);
         }
         for unit in &project.units {
-            names.scopes.push(unit.name.clone());
-            let scope = names.scopes.len() - 1;
+            let scope = names.add_scope(&unit.name);
             for tag in &unit.tags {
                 names.declare(scope, tag);
             }
@@ -158,17 +157,22 @@ impl Names {
     }
 
     fn scope_named(&self, name: &str) -> Option<Scope> {
-        self.scopes
-            .iter()
-            .position(|scope| scope.eq_ignore_ascii_case(name))
+        self.scopes_by_name.get(&name.to_ascii_lowercase()).copied()
+    }
+
+    /// Adds a scope. Of several with one name the first is found by it.
+    fn add_scope(&mut self, name: &str) -> Scope {
+        let scope = self.scopes.len();
+        self.scopes.push(name.to_owned());
+        let by_name = self.scopes_by_name.entry(name.to_ascii_lowercase());
+        by_name.or_insert(scope);
+        scope
     }
 
     /// The scope of a program, which may not be in the file.
     fn scope_named_or_new(&mut self, name: &str) -> Scope {
-        self.scope_named(name).unwrap_or_else(|| {
-            self.scopes.push(name.to_owned());
-            self.scopes.len() - 1
-        })
+        self.scope_named(name)
+            .unwrap_or_else(|| self.add_scope(name))
     }
 
     /// The root of a path written in `scope`: of the program that it names, else

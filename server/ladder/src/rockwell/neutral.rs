@@ -293,20 +293,14 @@ fn operands(text: &str, from: usize) -> (Vec<Range<usize>>, Result<usize, usize>
     let mut parentheses = 0_usize;
     let mut brackets = 0_usize;
     let mut quoted_to = from;
-    let mut plain_to = from;
+    let mut quotes = Quotes::default();
     for (offset, character) in text[from..].char_indices() {
         let at = from + offset;
         if at < quoted_to {
             continue;
         }
         match character {
-            '\'' if at >= plain_to => {
-                quoted_to = quote_end(text, at);
-                if quoted_to == at + 1 {
-                    // Nothing closes it, so no quote of this line closes one.
-                    plain_to = line_end(text, at);
-                }
-            }
+            '\'' => quoted_to = quotes.end(text, at),
             '(' => parentheses += 1,
             ')' if parentheses > 0 => parentheses -= 1,
             ')' => {
@@ -346,9 +340,28 @@ pub(super) fn quote_end(text: &str, start: usize) -> usize {
     start + 1
 }
 
-fn line_end(text: &str, from: usize) -> usize {
-    let rest = text.get(from..).unwrap_or_default();
-    from + rest.find(['\n', '\r']).unwrap_or(rest.len())
+/// The string literals of a text that is walked from left to right. A line is
+/// searched once for the end of one, however many quotes stand on it.
+#[derive(Debug, Default)]
+pub(super) struct Quotes {
+    /// Up to here quotes stand for themselves.
+    plain_to: usize,
+}
+
+impl Quotes {
+    /// As [`quote_end`].
+    pub(super) fn end(&mut self, text: &str, start: usize) -> usize {
+        if start < self.plain_to {
+            return start + 1;
+        }
+        let end = quote_end(text, start);
+        if end == start + 1 {
+            // Nothing closes it, so no quote of this line closes one.
+            let rest = text.get(start..).unwrap_or_default();
+            self.plain_to = start + rest.find(['\n', '\r']).unwrap_or(rest.len());
+        }
+        end
+    }
 }
 
 /// `range` of `text` without the blanks at its ends.

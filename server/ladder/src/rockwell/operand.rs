@@ -7,7 +7,7 @@
 
 use std::ops::Range;
 
-use super::neutral::{name_end, quote_end, skip_blanks, starts_name};
+use super::neutral::{Quotes, name_end, quote_end, skip_blanks, starts_name};
 
 /// A tag with its path.
 #[derive(Debug, PartialEq)]
@@ -223,9 +223,13 @@ pub(super) fn tokens(text: &str, range: Range<usize>) -> Vec<Token> {
         return Vec::new();
     };
     let mut tokens = Vec::new();
+    let mut quotes = Quotes::default();
     let mut at = skip_blanks(text, range.start);
     while let Some(character) = text.get(at..).and_then(|rest| rest.chars().next()) {
-        let token = token(text, at, character);
+        let token = match character {
+            '\'' => Token::Constant(at..quotes.end(text, at)),
+            _ => token(text, at, character),
+        };
         at = skip_blanks(text, token.place().end);
         tokens.push(token);
     }
@@ -235,9 +239,6 @@ pub(super) fn tokens(text: &str, range: Range<usize>) -> Vec<Token> {
 fn token(text: &str, at: usize, character: char) -> Token {
     if character.is_ascii_digit() {
         return Token::Constant(at..number_end(text, at));
-    }
-    if character == '\'' {
-        return Token::Constant(at..quote_end(text, at));
     }
     if let Some(end) = path_end(text, at) {
         let word = &text[at..end];

@@ -217,10 +217,29 @@ fn output(network: &Network, at: NodeIndex, name: &Name, walk: &mut Walk<'_>) ->
 /// says that there is power now, a fall that there is none.
 pub(super) fn edge_of(power: &Function, edge: Edge, walk: &mut Walk<'_>) -> Result<Function, Stop> {
     let inner = Box::new(power.to_expr(walk.atoms, walk.budget)?);
+    if size(&inner) > LARGEST_EDGE {
+        return Err(Stop::TooLarge);
+    }
     match edge {
         Edge::Rising => atom(Atom::Rise(inner), walk).and(power, walk.budget),
         Edge::Falling => atom(Atom::Fall(inner), walk).and_not(power, walk.budget),
     }
+}
+
+/// Most atoms in the expression that names an edge. An edge of an edge of an
+/// edge says each of them twice, so that twenty of them would fill a memory.
+const LARGEST_EDGE: usize = 1_000;
+
+/// Number of atoms in an expression, those inside its edges counted.
+fn size(expr: &Expr) -> usize {
+    let mut count = 0;
+    expr.each_atom(&mut |atom| {
+        count += match atom {
+            Atom::Rise(inner) | Atom::Fall(inner) => 1 + size(inner),
+            _ => 1,
+        };
+    });
+    count
 }
 
 fn variable_of(name: &Name, walk: &mut Walk<'_>) -> Function {

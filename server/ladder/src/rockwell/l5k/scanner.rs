@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::ops::Range;
 
 use super::super::listing::quoted;
-use super::super::neutral::{name_end, skip_blanks};
+use super::super::neutral::{Quotes, name_end, skip_blanks};
 
 /// A component: from its word to `END_` with that word.
 #[derive(Debug)]
@@ -40,31 +40,34 @@ impl Component<'_> {
 /// the end of a component does not walk over the text again and again.
 #[derive(Debug)]
 pub(super) struct Ends<'t> {
-    places: HashMap<&'t str, Vec<End>>,
+    places: HashMap<&'t str, Places>,
 }
 
-#[derive(Clone, Copy, Debug)]
-struct End {
-    at: usize,
-    /// Whether only blanks stand before it on its line.
-    begins_line: bool,
+/// Where one `END_` word stands, in ascending order.
+#[derive(Debug, Default)]
+struct Places {
+    /// All of them.
+    all: Vec<usize>,
+    /// Those before which only blanks stand on their line.
+    beginning_lines: Vec<usize>,
 }
 
 impl<'t> Ends<'t> {
     /// The `END_` words of `text` that stand at the beginning of a line or after
     /// something that ends a statement.
     pub(super) fn of(text: &'t str) -> Self {
-        let mut places: HashMap<&str, Vec<End>> = HashMap::new();
+        let mut places: HashMap<&str, Places> = HashMap::new();
         for (at, mark) in text.match_indices(END) {
             let before = text[..at].trim_end_matches([' ', '\t']);
             let begins_line = before.is_empty() || before.ends_with(['\n', '\r']);
             if begins_line || before.ends_with([';', ')']) {
                 let word_start = at + mark.len();
                 let word = &text[word_start..name_end(text, word_start)];
-                places
-                    .entry(word)
-                    .or_default()
-                    .push(End { at, begins_line });
+                let places = places.entry(word).or_default();
+                places.all.push(at);
+                if begins_line {
+                    places.beginning_lines.push(at);
+                }
             }
         }
         Self { places }
@@ -75,14 +78,14 @@ impl<'t> Ends<'t> {
         // Structured text and encoded data hold quotes that nothing closes; an end
         // word in them counts at the beginning of a line only.
         let raw = !matches!(word, "CONTROLLER" | "PROGRAM" | "ROUTINE" | "TAG" | "TASK");
-        let places = self.places.get(word)?;
-        let first = places.partition_point(|end| end.at < range.start);
-        places
-            .get(first..)?
-            .iter()
-            .take_while(|end| end.at < range.end)
-            .find(|end| end.begins_line || !raw)
-            .map(|end| end.at)
+        let found = self.places.get(word)?;
+        let places = if raw {
+            &found.beginning_lines
+        } else {
+            &found.all
+        };
+        let first = places.partition_point(|&at| at < range.start);
+        places.get(first).copied().filter(|&at| at < range.end)
     }
 }
 
@@ -133,10 +136,10 @@ impl<'t, 'e> Scanner<'t, 'e> {
 
     fn component_after(&mut self, word: &'t str, start: usize) -> Component<'t> {
         // A name stands on the word's own line; a list such as TAG has none.
-        let line = self.rest().find(['\n', '\r']).unwrap_or(self.rest().len());
         let name_start = skip_blanks(self.text, self.at);
+        let between = self.text.get(self.at..name_start).unwrap_or_default();
         let mut name = "";
-        if has_name(word) && name_start <= self.at + line {
+        if has_name(word) && !between.contains(['\n', '\r']) {
             let end = name_end(self.text, name_start);
             name = self.text.get(name_start..end).unwrap_or_default();
             self.at = end;
@@ -170,6 +173,7 @@ impl<'t, 'e> Scanner<'t, 'e> {
     pub(super) fn statement(&mut self) -> Option<Range<usize>> {
         self.at = skip_comments(self.text, self.at);
         let start = self.at;
+        let mut quotes = Quotes::default();
         while let Some(character) = self.rest().chars().next() {
             match character {
                 ';' => {
@@ -177,7 +181,7 @@ impl<'t, 'e> Scanner<'t, 'e> {
                     return Some(start..self.at);
                 }
                 '"' => self.at = quoted(self.text, self.at).1,
-                '\'' => self.at = super::super::neutral::quote_end(self.text, self.at),
+                '\'' => self.at = quotes.end(self.text, self.at),
                 _ => self.pass_character(),
             }
         }

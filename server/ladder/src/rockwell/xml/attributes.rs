@@ -1,3 +1,4 @@
+use std::collections::HashSet;
 use std::ops::Range;
 
 /// Attributes of a tag as name and place of the value, found one after the
@@ -6,7 +7,7 @@ pub(super) struct Attributes<'t> {
     tag: &'t str,
     at: usize,
     /// Where something that is no attribute stands.
-    pub(super) fault: Option<usize>,
+    fault: Option<usize>,
 }
 
 impl<'t> Attributes<'t> {
@@ -35,6 +36,32 @@ impl<'t> Iterator for Attributes<'t> {
         self.at = value.end + 1;
         Some((name, value))
     }
+}
+
+/// Where in `tag` something stands that is no attribute, if anything does.
+pub(super) fn fault(tag: &str, name_length: usize) -> Option<usize> {
+    let mut attributes = Attributes::of(tag, name_length);
+    while attributes.next().is_some() {}
+    attributes.fault
+}
+
+/// The first attribute of `tag` whose name an earlier one bears, and the place
+/// of its value.
+pub(super) fn repeated(tag: &str, name_length: usize) -> Option<(&str, Range<usize>)> {
+    const FEW: usize = 16;
+    let mut few: [&str; FEW] = [""; FEW];
+    let mut many = HashSet::new();
+    for (at, (name, value)) in Attributes::of(tag, name_length).enumerate() {
+        // Nearly all tags have few, and comparing these costs less than hashing.
+        let known = few.iter().take(at).any(|other| *other == name);
+        if known || at >= FEW && !many.insert(name) {
+            return Some((name, value));
+        }
+        if let Some(free) = few.get_mut(at) {
+            *free = name;
+        }
+    }
+    None
 }
 
 /// The attribute that begins at byte `start`: its name, and the place of its

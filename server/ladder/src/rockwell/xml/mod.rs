@@ -16,8 +16,6 @@ use quick_xml::events::{BytesRef, Event};
 use quick_xml::{Error, Reader};
 use source::{Diagnostic, Span, codes};
 
-use attributes::Attributes;
-
 pub(super) use element::Element;
 
 use crate::reading::Source;
@@ -68,7 +66,7 @@ pub(super) fn read<'t>(source: Source<'t>, diagnostics: &mut Vec<Diagnostic>) ->
         source,
         nodes: Vec::new(),
     };
-    if let Err(diagnostic) = document.fill() {
+    if let Err(diagnostic) = document.fill(diagnostics) {
         diagnostics.push(*diagnostic);
     }
     document
@@ -81,9 +79,12 @@ impl<'t> Document<'t> {
         Some(Element { document: self, at })
     }
 
-    fn fill(&mut self) -> Result<(), Box<Diagnostic>> {
+    fn fill(&mut self, diagnostics: &mut Vec<Diagnostic>) -> Result<(), Box<Diagnostic>> {
         let text = self.source.text;
         let mut reader = Reader::from_str(text);
+        // An end tag that fits nothing is reported here, and reading goes on.
+        reader.config_mut().check_end_names = false;
+        reader.config_mut().allow_unmatched_ends = true;
         let mut open: Vec<usize> = Vec::new();
         loop {
             let start = reader.buffer_position() as usize;
@@ -98,7 +99,8 @@ impl<'t> Document<'t> {
             match event {
                 Event::Start(tag) => {
                     let name = tag.name().into_inner();
-                    let at = self.add_element(start..end, start + 1..end - 1, name, &open)?;
+                    let at = self.add_element(start..end, start + 1..end - 1, name, &open);
+                    self.check_attributes(at, diagnostics);
                     open.push(at);
                     if open.len() > DEEPEST {
                         return Err(self.too_deep(start, end));
@@ -106,13 +108,13 @@ impl<'t> Document<'t> {
                 }
                 Event::Empty(tag) => {
                     let name = tag.name().into_inner();
-                    let at = self.add_element(start..end, start + 1..end - 2, name, &open)?;
+                    let at = self.add_element(start..end, start + 1..end - 2, name, &open);
+                    self.check_attributes(at, diagnostics);
                     self.close(at, end);
                 }
-                Event::End(_) => {
-                    if let Some(at) = open.pop() {
-                        self.close(at, end);
-                    }
+                Event::End(tag) => {
+                    let name = tag.name().into_inner();
+                    self.end(name, start..end, &mut open, diagnostics);
                 }
                 Event::Text(_) => self.add_text(start..end, &open),
                 Event::CData(_) => {
@@ -128,11 +130,14 @@ impl<'t> Document<'t> {
                             &open,
                         );
                     }
-                    None => return Err(self.unknown_entity(start, end)),
+                    None => {
+                        diagnostics.push(self.unknown_entity(start, end));
+                        self.add_text(start..end, &open);
+                    }
                 },
                 Event::DocType(doctype) => {
                     if doctype.contains('[') {
-                        return Err(self.refused_doctype(start, end));
+                        diagnostics.push(self.refused_doctype(start, end));
                     }
                 }
                 Event::Comment(_) | Event::Decl(_) | Event::PI(_) => {}
@@ -152,7 +157,7 @@ impl<'t> Document<'t> {
         inner: Range<usize>,
         name: &str,
         open: &[usize],
-    ) -> Result<usize, Box<Diagnostic>> {
+    ) -> usize {
         let colon = name.bytes().rposition(|byte| byte == b':');
         let kind = NodeKind::Element {
             prefix: narrow(colon.map_or(0, |colon| colon + 1)),
@@ -160,21 +165,67 @@ impl<'t> Document<'t> {
             complete: false,
         };
         let inner = inner.start..inner.end.max(inner.start);
-        let tag = self.source.text.get(inner.clone()).unwrap_or_default();
-        let mut attributes = Attributes::of(tag, name.len());
-        while attributes.next().is_some() {}
-        if let Some(at) = attributes.fault {
-            let place = self.source.base + inner.start + at;
-            return Err(Box::new(
+        self.add(kind, whole, inner, open)
+    }
+
+    /// Reports attributes of an element that are none, or stand there twice.
+    fn check_attributes(&self, at: usize, diagnostics: &mut Vec<Diagnostic>) {
+        let node = &self.nodes[at];
+        let name_length = self.name_at(at).len();
+        let tag = self.text_at(node.inner_start, node.inner_end);
+        let place = self.source.base + node.inner_start as usize;
+        if let Some(fault) = attributes::fault(tag, name_length) {
+            diagnostics.push(
                 Diagnostic::new(
                     codes::XML_SYNTAX,
-                    Span::at(place),
+                    Span::at(place + fault),
                     "an attribute is not of the form name=\"value\"",
                 )
-                .help("what stood before this place is read; export the file again"),
-            ));
+                .help("the attributes before this place are read; export the file again"),
+            );
         }
-        Ok(self.add(kind, whole, inner, open))
+        if let Some((name, found)) = attributes::repeated(tag, name_length) {
+            let message = format!("the attribute `{name}` stands here twice");
+            let place = Span::new(place + found.start, place + found.end);
+            diagnostics.push(
+                Diagnostic::new(codes::XML_SYNTAX, place, message)
+                    .help("remove one of them; the first counts"),
+            );
+        }
+    }
+
+    /// Closes the innermost open element of that name, and those inside it.
+    fn end(
+        &mut self,
+        name: &str,
+        place: Range<usize>,
+        open: &mut Vec<usize>,
+        diagnostics: &mut Vec<Diagnostic>,
+    ) {
+        let Some(depth) = open.iter().rposition(|&at| self.name_at(at) == name) else {
+            let message = format!("`</{name}>` closes nothing that is open");
+            let place = self.source.span(place.start, place.end);
+            diagnostics.push(
+                Diagnostic::new(codes::XML_SYNTAX, place, message)
+                    .help("remove it, or add the start tag that it belongs to"),
+            );
+            return;
+        };
+        for at in open.drain(depth + 1..).rev() {
+            let message = format!("`<{}>` is not closed before `</{name}>`", self.name_at(at));
+            let node = &mut self.nodes[at];
+            node.end = narrow(place.start);
+            let tag = self
+                .source
+                .span(node.start as usize, node.inner_end as usize + 1);
+            diagnostics.push(
+                Diagnostic::new(codes::XML_SYNTAX, tag, message)
+                    .help("add its end tag; it is taken to end where the other one stands"),
+            );
+        }
+        if let Some(at) = open.pop() {
+            self.close(at, place.end);
+        }
     }
 
     fn add_text(&mut self, range: Range<usize>, open: &[usize]) {
@@ -267,25 +318,21 @@ impl<'t> Document<'t> {
         )
     }
 
-    fn unknown_entity(&self, start: usize, end: usize) -> Box<Diagnostic> {
+    fn unknown_entity(&self, start: usize, end: usize) -> Diagnostic {
         let written = self.source.text.get(start..end).unwrap_or_default();
         let message = format!("`{written}` is no entity that XML defines");
         let place = self.source.span(start, end);
-        Box::new(
-            Diagnostic::new(codes::XML_SYNTAX, place, message)
-                .help("write the character itself, or its number such as `&#233;`"),
-        )
+        Diagnostic::new(codes::XML_SYNTAX, place, message)
+            .help("write the character itself, or its number such as `&#233;`; it stays as it is")
     }
 
-    fn refused_doctype(&self, start: usize, end: usize) -> Box<Diagnostic> {
-        Box::new(
-            Diagnostic::new(
-                codes::XML_REFUSED,
-                self.source.span(start, end),
-                "the document type declares entities or elements of its own, which are not expanded",
-            )
-            .help("remove the `<!DOCTYPE ...>` declaration"),
+    fn refused_doctype(&self, start: usize, end: usize) -> Diagnostic {
+        Diagnostic::new(
+            codes::XML_REFUSED,
+            self.source.span(start, end),
+            "the document type declares entities or elements of its own, which are not expanded",
         )
+        .help("remove the `<!DOCTYPE ...>` declaration; the rest is read")
     }
 
     fn too_deep(&self, start: usize, end: usize) -> Box<Diagnostic> {
@@ -359,9 +406,6 @@ mod tests {
             ("<a><b/><c>", "G1006"),
             ("<a><b/><c x=\"", "G1006"),
             ("<a><b/><![CDATA[ x", "G1006"),
-            ("<a><b/></c></a>", "G1004"),
-            ("<a><b/><c x/></a>", "G1004"),
-            ("<a><b/>&nbsp;</a>", "G1004"),
         ] {
             let (document, codes) = check(text);
             assert_eq!(codes, [code], "{text}");
@@ -372,9 +416,36 @@ mod tests {
     }
 
     #[test]
+    fn what_follows_a_fault_is_read() {
+        for text in [
+            "<a><b/></c><d/></a>",
+            "<a><b/><c></a>",
+            "<a><b/><c x/><d/></a>",
+            "<a><b/><c x=\"1\" x=\"2\"/><d/></a>",
+        ] {
+            let (document, codes) = check(text);
+            assert_eq!(codes, ["G1004"], "{text}");
+            let root = document.root().expect("root");
+            assert!(root.is_complete(), "{text}");
+            assert!(root.child("b").is_some_and(Element::is_complete), "{text}");
+            assert!(root.child("d").is_some() == text.contains("<d/>"), "{text}");
+        }
+    }
+
+    #[test]
+    fn an_entity_that_nothing_defines_stays_as_it_is() {
+        let (document, codes) = check("<a><b/>&nbsp;<c/></a>");
+        assert_eq!(codes, ["G1004"]);
+        let root = document.root().expect("root");
+        assert!(root.is_complete() && root.child("c").is_some());
+        assert_eq!(root.passage().text(), "&nbsp;");
+    }
+
+    #[test]
     fn constructs_that_could_grow_without_bound_are_refused() {
-        let (_, codes) = check("<!DOCTYPE a [<!ENTITY x \"y\">]><a>&x;</a>");
-        assert_eq!(codes, ["G1005"]);
+        let (document, codes) = check("<!DOCTYPE a [<!ENTITY x \"y\">]><a>&x;</a>");
+        assert_eq!(codes, ["G1005", "G1004"]);
+        assert_eq!(document.root().expect("root").passage().text(), "&x;");
         let deep = "<a>".repeat(300);
         let (_, codes) = check(&deep);
         assert_eq!(codes, ["G1005"]);
