@@ -7,8 +7,7 @@
 //! complement of a parallel connection is not the parallel connection of the
 //! complements.
 
-use std::collections::{HashMap, HashSet};
-
+use foldhash::{HashMap, HashSet};
 use logic::Name;
 use petgraph::graph::NodeIndex;
 use source::{Diagnostic, Span, codes};
@@ -25,7 +24,7 @@ use crate::{
 
 /// What the rungs of a body have in common.
 pub(super) struct Body<'a> {
-    pub(super) diagram: &'a Diagram,
+    pub(super) diagram: &'a Diagram<'a>,
     /// When each node is solved.
     pub(super) turns: &'a [usize],
     /// By node: the nodes that it feeds, in document order.
@@ -44,7 +43,7 @@ pub(super) struct Body<'a> {
 /// A rung while it is built.
 pub(super) struct Lowering<'b, 'a> {
     pub(super) body: &'b mut Body<'a>,
-    pub(super) diagram: &'a Diagram,
+    pub(super) diagram: &'a Diagram<'a>,
     pub(super) builder: NetworkBuilder,
     /// By node and output pin, the pin without case.
     signals: HashMap<(usize, String), Signal>,
@@ -67,8 +66,8 @@ pub(super) fn lower(body: &mut Body<'_>, plan: &Plan, span: Span) -> Network {
         diagram,
         body,
         builder: NetworkBuilder::new(rail_span(diagram, plan)),
-        signals: HashMap::new(),
-        done: HashSet::new(),
+        signals: HashMap::default(),
+        done: HashSet::default(),
         writes: false,
     };
     for &at in &plan.nodes {
@@ -86,7 +85,7 @@ pub(super) fn lower(body: &mut Body<'_>, plan: &Plan, span: Span) -> Network {
 }
 
 /// The left rail that the rung hangs on, else the place of its first element.
-fn rail_span(diagram: &Diagram, plan: &Plan) -> Span {
+fn rail_span(diagram: &Diagram<'_>, plan: &Plan) -> Span {
     let nodes = plan.nodes.iter().filter_map(|&at| diagram.nodes.get(at));
     let sources = nodes
         .clone()
@@ -112,7 +111,7 @@ impl<'a> Lowering<'_, 'a> {
     pub(super) fn made_up(&self, at: usize, what: &str) -> Name {
         let unit = self.body.names.unit_name(self.body.unit);
         let node = self.diagram.nodes.get(at);
-        let id = node.map_or("", |node| node.id.as_str());
+        let id = node.map_or("", |node| &*node.id);
         if id.is_empty() {
             format!("{unit}.{what}@{at}").into()
         } else {
@@ -120,13 +119,13 @@ impl<'a> Lowering<'_, 'a> {
         }
     }
 
-    pub(super) fn folded(&mut self, text: &Text) -> Operand {
+    pub(super) fn folded(&mut self, text: &Text<'_>) -> Operand {
         let name = self.body.names.fold(self.body.unit, &text.value);
         Operand::new(name, text.span)
     }
 
     /// The variable at an element, or a made-up one.
-    pub(super) fn operand(&mut self, at: usize, node: &Node, what: &str) -> Operand {
+    pub(super) fn operand(&mut self, at: usize, node: &Node<'_>, what: &str) -> Operand {
         if let Some(text) = &node.operand {
             return match node.kind {
                 NodeKind::Label | NodeKind::Jump => Operand::new(text.value.trim(), text.span),
@@ -178,7 +177,7 @@ impl<'a> Lowering<'_, 'a> {
     }
 
     /// What a connection hands to the element at `at`.
-    pub(super) fn signal(&mut self, at: usize, source: &Source) -> Signal {
+    pub(super) fn signal(&mut self, at: usize, source: &Source<'_>) -> Signal {
         let Some(from) = self.diagram.nodes.get(source.node) else {
             return Signal::off(source.span);
         };
@@ -200,11 +199,11 @@ impl<'a> Lowering<'_, 'a> {
 
     /// What comes from an element that is solved later: a variable or a block's
     /// output as the last scan left it; anything else is a circle, and off.
-    fn recalled(&mut self, from: &'a Node, source: &Source) -> Signal {
+    fn recalled(&mut self, from: &'a Node<'a>, source: &Source<'_>) -> Signal {
         let path = match (&from.kind, &from.operand) {
-            (NodeKind::InOutVariable { .. }, Some(text)) => text.value.clone(),
+            (NodeKind::InOutVariable { .. }, Some(text)) => text.value.to_string(),
             (NodeKind::Block(block), _) => {
-                let pin = match source.pin.as_str() {
+                let pin = match &*source.pin {
                     "" => from.outputs.first().map_or("OUT", |output| &output.pin),
                     pin => pin,
                 };
@@ -224,7 +223,7 @@ impl<'a> Lowering<'_, 'a> {
 
     /// The power of a connection; an element is made for it where the signal
     /// is a value so far.
-    pub(super) fn power(&mut self, at: usize, source: &Source) -> Vec<Tap> {
+    pub(super) fn power(&mut self, at: usize, source: &Source<'_>) -> Vec<Tap> {
         let signal = self.signal(at, source);
         if let Some(taps) = signal.taps {
             return taps;
@@ -261,7 +260,7 @@ impl<'a> Lowering<'_, 'a> {
     }
 
     /// The power that arrives at an input, its marks applied.
-    pub(super) fn arrival(&mut self, at: usize, input: &Input) -> Arrival {
+    pub(super) fn arrival(&mut self, at: usize, input: &Input<'_>) -> Arrival {
         let made_up = self.made_up(at, "power");
         let mut taps = Vec::new();
         let mut terms = Vec::new();
@@ -294,7 +293,7 @@ impl<'a> Lowering<'_, 'a> {
     }
 
     /// The power that arrives at an element without pins.
-    pub(super) fn main_arrival(&mut self, at: usize, node: &'a Node, what: &str) -> Arrival {
+    pub(super) fn main_arrival(&mut self, at: usize, node: &'a Node<'a>, what: &str) -> Arrival {
         let input = node.inputs.first();
         let connected = input.is_some_and(|input| !input.sources.is_empty() || input.broken);
         if !connected {

@@ -108,8 +108,8 @@ pub(super) enum Form {
 
 impl Term {
     /// The expression `text` of a unit.
-    pub(super) fn of(text: &Text, unit: usize, names: &mut Names) -> Self {
-        let value = text.value.as_str();
+    pub(super) fn of(text: &Text<'_>, unit: usize, names: &mut Names) -> Self {
+        let value = &*text.value;
         let place = |range: &std::ops::Range<usize>| part(text, range);
         let rewritten = names.rewrite(unit, value);
         let reads: Vec<_> = rewritten
@@ -280,7 +280,7 @@ fn truth_word(truth: bool) -> &'static str {
 
 /// The bytes of a part of a text. Where its value has another length than its
 /// bytes (an entity), the bytes of the whole.
-fn part(text: &Text, range: &std::ops::Range<usize>) -> Span {
+fn part(text: &Text<'_>, range: &std::ops::Range<usize>) -> Span {
     if text.value.len() != text.span.len() {
         return text.span;
     }

@@ -12,6 +12,7 @@ use source::{Diagnostic, codes};
 
 use super::boxes::pin;
 use super::catalogue::{self, Meaning, Power, Slot, SlotKind};
+use super::names::lower;
 use super::neutral::Instruction;
 use super::operand;
 use super::rung::Drawing;
@@ -26,13 +27,13 @@ impl Drawing<'_, '_, '_> {
     /// Adds an instruction in series after `sources`; the answer is where power
     /// comes from after it.
     pub(super) fn instruction(&mut self, it: &Instruction, sources: Sources) -> Sources {
-        let mnemonic = self.text(&it.mnemonic).to_owned();
+        let mnemonic = self.text(&it.mnemonic);
         let surroundings = self.surroundings;
-        if let Some(definition) = surroundings.definitions.get(&mnemonic.to_lowercase()) {
+        if let Some(definition) = surroundings.definitions.get(&*lower(mnemonic)) {
             let block = self.defined_block(it, mnemonic.into(), definition);
             return self.add(&sources, block, it.place.clone());
         }
-        let Some(meaning) = catalogue::meaning(&mnemonic) else {
+        let Some(meaning) = catalogue::meaning(mnemonic) else {
             let block = self.unknown_block(it, mnemonic);
             return self.add(&sources, block, it.place.clone());
         };
@@ -139,7 +140,7 @@ impl Drawing<'_, '_, '_> {
 
     /// `LIM(low,test,high)`. Limits in order mean between them, limits the other
     /// way round mean outside, both included.
-    fn limit(&mut self, it: &Instruction, mnemonic: String, sources: Sources) -> Sources {
+    fn limit(&mut self, it: &Instruction, mnemonic: &str, sources: Sources) -> Sources {
         let limits = [0, 2].map(|place| {
             let range = it.operands.get(place)?;
             operand::integer(self.text(range))
@@ -183,7 +184,7 @@ impl Drawing<'_, '_, '_> {
     }
 
     /// `JSR(routine,n,n inputs,returns)`.
-    fn call(&mut self, it: &Instruction, mnemonic: String, sources: Sources) -> Sources {
+    fn call(&mut self, it: &Instruction, mnemonic: &str, sources: Sources) -> Sources {
         let routine = self.routine(it);
         let inputs = it
             .operands
@@ -204,7 +205,7 @@ impl Drawing<'_, '_, '_> {
                     text: text.clone(),
                     reads: Vec::new(),
                 },
-                mnemonic: mnemonic.as_str().into(),
+                mnemonic: mnemonic.into(),
             });
             sources = self.add(&sources, write, it.place.clone());
         }
@@ -212,7 +213,7 @@ impl Drawing<'_, '_, '_> {
     }
 
     /// `FOR(routine,index,from,to,step)`.
-    fn repeated_call(&mut self, it: &Instruction, mnemonic: String, sources: Sources) -> Sources {
+    fn repeated_call(&mut self, it: &Instruction, mnemonic: &str, sources: Sources) -> Sources {
         let slots = &[
             Slot {
                 name: "Routine Name",
@@ -258,7 +259,7 @@ impl Drawing<'_, '_, '_> {
     /// `RET(values)` and `TND()`. Both leave the routine that they stand in: the
     /// reference says so of `TND` too, which ends a program's scan only where it
     /// stands in a main routine.
-    fn leave(&mut self, it: &Instruction, mnemonic: String, sources: Sources) -> Sources {
+    fn leave(&mut self, it: &Instruction, mnemonic: &str, sources: Sources) -> Sources {
         let mut sources = sources;
         if !it.operands.is_empty() {
             let pins = self

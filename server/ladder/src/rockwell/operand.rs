@@ -218,18 +218,15 @@ impl Token {
 }
 
 /// The pieces of an expression, `range` of `text`, blanks left out.
-pub(super) fn tokens(text: &str, range: Range<usize>) -> Vec<Token> {
-    let Some(text) = text.get(..range.end) else {
-        return Vec::new();
-    };
-    let mut tokens = Vec::new();
+pub(super) fn tokens(text: &str, range: Range<usize>) -> impl Iterator<Item = Token> {
+    let text = text.get(..range.end).unwrap_or_default();
     let mut at = skip_blanks(text, range.start);
-    while let Some(character) = text.get(at..).and_then(|rest| rest.chars().next()) {
+    std::iter::from_fn(move || {
+        let character = text.get(at..)?.chars().next()?;
         let token = token(text, at, character);
         at = skip_blanks(text, token.place().end);
-        tokens.push(token);
-    }
-    tokens
+        Some(token)
+    })
 }
 
 fn token(text: &str, at: usize, character: char) -> Token {
@@ -298,7 +295,6 @@ mod tests {
     fn expressions_fall_into_pieces() {
         let text = "(In_Raw-Cfg.Min[i])*-1.0e-3 AND SQR ( x ) <= 16#0F";
         let shown: Vec<&str> = tokens(text, 0..text.len())
-            .iter()
             .map(|token| &text[token.place()])
             .collect();
         assert_eq!(

@@ -7,9 +7,9 @@
 //! is what `[,XIO(c)]` means, and the order of adding elements is Rockwell's
 //! order of solving: left to right, top leg first.
 
-use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 
+use foldhash::{HashMap, HashSet};
 use petgraph::graph::NodeIndex;
 use source::{Diagnostic, Span, codes};
 
@@ -71,7 +71,7 @@ pub(super) fn network(
         surroundings,
         names,
         diagnostics,
-        unknown: HashSet::new(),
+        unknown: HashSet::default(),
     };
     drawing.series(&statement.items, vec![Network::rail()]);
     let Drawing {
@@ -122,7 +122,7 @@ pub(super) struct Drawing<'a, 'p, 't> {
     pub(super) unknown: HashSet<String>,
 }
 
-impl Drawing<'_, '_, '_> {
+impl<'p> Drawing<'_, 'p, '_> {
     fn series(&mut self, items: &[Item], mut sources: Vec<NodeIndex>) -> Vec<NodeIndex> {
         for item in items {
             sources = self.gather(sources);
@@ -137,7 +137,7 @@ impl Drawing<'_, '_, '_> {
 
     fn branch(&mut self, legs: &[Vec<Item>], sources: &[NodeIndex]) -> Vec<NodeIndex> {
         let mut ends = Vec::new();
-        let mut seen = HashSet::new();
+        let mut seen = HashSet::default();
         for leg in legs {
             let leg_ends = self.series(leg, sources.to_vec());
             ends.extend(leg_ends.into_iter().filter(|&end| seen.insert(end)));
@@ -180,7 +180,7 @@ impl Drawing<'_, '_, '_> {
     }
 
     /// The text at `range`.
-    pub(super) fn text(&self, range: &Range<usize>) -> &str {
+    pub(super) fn text(&self, range: &Range<usize>) -> &'p str {
         self.place
             .text
             .text()

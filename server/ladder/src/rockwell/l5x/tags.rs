@@ -48,20 +48,19 @@ fn tag(element: Element<'_, '_>, class: Class) -> Tag {
             tag.comments.push((part.into_owned(), text));
         }
     }
-    let (decorated, plain): (Vec<_>, Vec<_>) = ["Data", "DefaultData"]
-        .into_iter()
-        .flat_map(|kind| element.children_named(kind))
-        .partition(|data| data.attribute_is("Format", "Decorated"));
-    for data in decorated {
+    let data = || {
+        ["Data", "DefaultData"]
+            .into_iter()
+            .flat_map(|kind| element.children_named(kind))
+    };
+    for data in data().filter(|data| data.attribute_is("Format", "Decorated")) {
         let value = data.child("DataValue");
         tag.initial = value
             .and_then(|value| value.attribute("Value"))
             .map(Into::into);
         presets_inside(data, &mut Vec::new(), &mut tag.presets);
     }
-    let listed = plain
-        .into_iter()
-        .find(|data| data.attribute_is("Format", "L5K"));
+    let listed = data().find(|data| data.attribute_is("Format", "L5K"));
     if let Some(data) = listed {
         let passage = data.passage();
         let value = passage.text().trim();
@@ -147,10 +146,13 @@ fn class_of_tag(element: Element<'_, '_>) -> Class {
 
 fn class_of_usage(element: Element<'_, '_>) -> Class {
     let usage = element.attribute("Usage").unwrap_or_default();
-    match usage.to_ascii_lowercase().as_str() {
-        "input" => Class::Input,
-        "output" => Class::Output,
-        "inout" => Class::InOut,
-        _ => Class::Unknown,
-    }
+    let classes = [
+        ("Input", Class::Input),
+        ("Output", Class::Output),
+        ("InOut", Class::InOut),
+    ];
+    let found = classes
+        .iter()
+        .find(|(word, _)| usage.eq_ignore_ascii_case(word));
+    found.map_or(Class::Unknown, |(_, class)| *class)
 }

@@ -6,7 +6,6 @@
 //! ([`Passage`](super::passage::Passage)), and a tree that survives a file that was cut short: elements
 //! that never ended are there, marked as incomplete.
 
-mod attributes;
 mod element;
 
 use std::num::NonZeroU32;
@@ -16,11 +15,10 @@ use quick_xml::events::{BytesRef, Event};
 use quick_xml::{Error, Reader};
 use source::{Diagnostic, Span, codes};
 
-use attributes::Attributes;
-
 pub(super) use element::Element;
 
 use crate::reading::Source;
+use crate::xml::{Attribute, Attributes};
 
 /// Deepest nesting that is read. Exports stay below 30.
 const DEEPEST: usize = 256;
@@ -29,6 +27,8 @@ const DEEPEST: usize = 256;
 pub(super) struct Document<'t> {
     source: Source<'t>,
     nodes: Vec<Node>,
+    /// Those of all elements, in the order of the text.
+    attributes: Vec<Attribute>,
 }
 
 /// A large file has a node for every few dozen bytes, so that nodes are kept
@@ -55,6 +55,8 @@ enum NodeKind {
         prefix: u32,
         /// Bytes of the whole name.
         name_length: u32,
+        /// Its first place in the list of attributes, and the one after its last.
+        attributes: (u32, u32),
         complete: bool,
     },
     Text,
@@ -67,6 +69,7 @@ pub(super) fn read<'t>(source: Source<'t>, diagnostics: &mut Vec<Diagnostic>) ->
     let mut document = Document {
         source,
         nodes: Vec::new(),
+        attributes: Vec::new(),
     };
     if let Err(diagnostic) = document.fill() {
         diagnostics.push(*diagnostic);
@@ -153,34 +156,34 @@ impl<'t> Document<'t> {
         name: &str,
         open: &[usize],
     ) -> Result<usize, Box<Diagnostic>> {
-        let colon = name.bytes().rposition(|byte| byte == b':');
-        let kind = NodeKind::Element {
-            prefix: narrow(colon.map_or(0, |colon| colon + 1)),
-            name_length: narrow(name.len()),
-            complete: false,
-        };
         let inner = inner.start..inner.end.max(inner.start);
-        let tag = self.source.text.get(inner.clone()).unwrap_or_default();
-        let mut attributes = Attributes::of(tag, name.len());
-        while attributes.next().is_some() {}
+        let first = self.attributes.len();
+        let mut attributes = Attributes::of(self.source.text, inner.start + name.len()..inner.end);
+        self.attributes.extend(&mut attributes);
         if let Some(at) = attributes.fault {
-            let place = self.source.base + inner.start + at;
             return Err(Box::new(
                 Diagnostic::new(
                     codes::XML_SYNTAX,
-                    Span::at(place),
+                    Span::at(self.source.base + at),
                     "an attribute is not of the form name=\"value\"",
                 )
                 .help("what stood before this place is read; export the file again"),
             ));
         }
+        let colon = name.bytes().rposition(|byte| byte == b':');
+        let kind = NodeKind::Element {
+            prefix: narrow(colon.map_or(0, |colon| colon + 1)),
+            name_length: narrow(name.len()),
+            attributes: (narrow(first), narrow(self.attributes.len())),
+            complete: false,
+        };
         Ok(self.add(kind, whole, inner, open))
     }
 
     fn add_text(&mut self, range: Range<usize>, open: &[usize]) {
         let text = self.source.text.get(range.clone()).unwrap_or_default();
         // Most texts are the blanks between tags, and those are ASCII.
-        if !text.trim_ascii_start().trim().is_empty() && !open.is_empty() {
+        if !text.trim_ascii_start().trim_start().is_empty() && !open.is_empty() {
             self.add(NodeKind::Text, range.clone(), range, open);
         }
     }
