@@ -143,7 +143,7 @@ impl<'a> Lowering<'_, 'a> {
             Diagnostic::new(codes::NAMELESS, node.span, message)
                 .help("give it an instance; until then it bears a made-up name"),
         );
-        Operand::new(self.made_up(at, &block.name.value), node.span)
+        Operand::new(self.made_up(at, &block.name.value).name(), node.span)
     }
 
     /// `instance.pin` as an operand written where the block is.

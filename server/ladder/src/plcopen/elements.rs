@@ -225,7 +225,7 @@ impl<'a> Lowering<'_, 'a> {
         let kind = ElementKind::Assign(Assignment {
             value: term.written_to(&target),
             target,
-            mnemonic: term.mnemonic.clone(),
+            mnemonic: term.mnemonic.clone().unwrap_or_else(|| "MOVE".into()),
         });
         self.after(power, kind, span)
     }
@@ -256,7 +256,7 @@ impl<'a> Lowering<'_, 'a> {
         self.body.conditions.insert(node.span, said);
         let operand = match &node.operand {
             Some(text) => self.folded(text),
-            None => Operand::new(self.made_up(at, "transition"), node.span),
+            None => Operand::new(self.made_up(at, "transition").name(), node.span),
         };
         let kind = CoilKind::Plain;
         let coil = ElementKind::Coil(Coil { operand, kind });
@@ -281,7 +281,7 @@ impl<'a> Lowering<'_, 'a> {
                 term: Term::truth(true, node.span),
             },
         };
-        let made_up = self.made_up(at, name);
+        let made_up = self.made_up(at, name).name();
         let kind = ElementKind::Block(Block {
             name: name.into(),
             instance: Some(Operand::new(made_up.clone(), node.span)),

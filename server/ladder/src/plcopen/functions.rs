@@ -91,7 +91,7 @@ impl<'a> Lowering<'_, 'a> {
         if let Some(sum) = sum(sign, &parts) {
             term.form = sum;
         }
-        term.mnemonic = upper.into();
+        term.mnemonic = Some(upper.into());
         term
     }
 

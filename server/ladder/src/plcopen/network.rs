@@ -45,12 +45,32 @@ pub(super) struct Lowering<'b, 'a> {
     pub(super) body: &'b mut Body<'a>,
     pub(super) diagram: &'a Diagram<'a>,
     pub(super) builder: NetworkBuilder,
-    /// By node and output pin, the pin without case.
-    signals: HashMap<(usize, String), Signal>,
+    /// By node: its output pins, without case, and what leaves them.
+    signals: HashMap<usize, Vec<(String, Signal)>>,
     /// Outputs that were built along with the block that feeds them.
     pub(super) done: HashSet<usize>,
     /// Whether anything in the rung has an effect.
     pub(super) writes: bool,
+}
+
+/// A name that is spelt out only where it is used.
+pub(super) struct MadeUp<'w> {
+    unit: Name,
+    what: &'w str,
+    at: usize,
+    /// The id of the element that it is for.
+    id: &'w str,
+}
+
+impl MadeUp<'_> {
+    /// The name: `Main.power12`.
+    pub(super) fn name(&self) -> Name {
+        let Self { unit, what, at, id } = self;
+        match *id {
+            "" => format!("{unit}.{what}@{at}").into(),
+            id => format!("{unit}.{what}{id}").into(),
+        }
+    }
 }
 
 /// The power that arrives at an input.
@@ -108,14 +128,15 @@ impl<'a> Lowering<'_, 'a> {
     }
 
     /// A name for what has none, unlike any other of the project.
-    pub(super) fn made_up(&self, at: usize, what: &str) -> Name {
-        let unit = self.body.names.unit_name(self.body.unit);
-        let node = self.diagram.nodes.get(at);
-        let id = node.map_or("", |node| &*node.id);
-        if id.is_empty() {
-            format!("{unit}.{what}@{at}").into()
-        } else {
-            format!("{unit}.{what}{id}").into()
+    pub(super) fn made_up<'w>(&self, at: usize, what: &'w str) -> MadeUp<'w>
+    where
+        'a: 'w,
+    {
+        MadeUp {
+            unit: self.body.names.unit_name(self.body.unit),
+            what,
+            at,
+            id: self.diagram.nodes.get(at).map_or("", |node| &*node.id),
         }
     }
 
@@ -140,32 +161,35 @@ impl<'a> Lowering<'_, 'a> {
             )
             .help("assign one; until then it bears a made-up name"),
         );
-        Operand::new(self.made_up(at, what), node.span)
+        Operand::new(self.made_up(at, what).name(), node.span)
     }
 
     pub(super) fn set(&mut self, at: usize, pin: &str, signal: Signal) {
-        self.signals.insert((at, pin.to_uppercase()), signal);
+        let outputs = self.signals.entry(at).or_default();
+        match outputs.iter_mut().find(|(own, _)| is_same(own, pin)) {
+            Some((_, own)) => *own = signal,
+            None => outputs.push((pin.to_uppercase(), signal)),
+        }
     }
 
-    /// The pin of `node` that `pin` means. Exporters leave the name out, or
-    /// give one (`output`) to elements that have no pins.
-    fn pin_of(&self, node: usize, pin: &str) -> String {
-        let wanted = pin.to_uppercase();
-        if self.signals.contains_key(&(node, wanted.clone())) {
-            return wanted;
-        }
-        let outputs = self.diagram.nodes.get(node).map(|node| &node.outputs);
-        let mut others = outputs
-            .into_iter()
-            .flatten()
-            .map(|output| output.pin.to_uppercase())
-            .filter(|pin| pin != "ENO");
-        others.next().unwrap_or_default()
+    /// The signal that leaves `node` at what `pin` means. Exporters leave the
+    /// name out, or give one (`output`) to elements that have no pins.
+    fn left_at(&self, node: usize, pin: &str) -> Option<(usize, &Signal)> {
+        let outputs = self.signals.get(&node)?;
+        let find = |pin: &str| outputs.iter().position(|(own, _)| is_same(own, pin));
+        let place = find(pin).or_else(|| {
+            let drawn = self.diagram.nodes.get(node)?.outputs.iter();
+            let mut others = drawn.filter(|output| !is_same("ENO", &output.pin));
+            find(others.next().map_or("", |output| &*output.pin))
+        })?;
+        Some((place, &outputs.get(place)?.1))
     }
 
     /// The signal of an output already set.
     pub(super) fn own_signal(&self, at: usize, pin: &str) -> Option<Signal> {
-        self.signals.get(&(at, pin.to_uppercase())).cloned()
+        let mut outputs = self.signals.get(&at)?.iter();
+        let (_, signal) = outputs.find(|(own, _)| is_same(own, pin))?;
+        Some(signal.clone())
     }
 
     /// Whether anything is fed by a node.
@@ -190,9 +214,8 @@ impl<'a> Lowering<'_, 'a> {
         if turn(source.node) >= turn(at) {
             return self.recalled(from, source);
         }
-        let pin = self.pin_of(source.node, &source.pin);
-        match self.signals.get(&(source.node, pin)) {
-            Some(signal) => signal.clone(),
+        match self.left_at(source.node, &source.pin) {
+            Some((_, signal)) => signal.clone(),
             None => Signal::off(source.span),
         }
     }
@@ -221,21 +244,23 @@ impl<'a> Lowering<'_, 'a> {
         Signal::value(term, boolean, source.span)
     }
 
-    /// The power of a connection; an element is made for it where the signal
-    /// is a value so far.
-    pub(super) fn power(&mut self, at: usize, source: &Source<'_>) -> Vec<Tap> {
-        let signal = self.signal(at, source);
-        if let Some(taps) = signal.taps {
-            return taps;
+    /// The power and the term of a connection; an element is made for the power
+    /// where the signal is a value so far.
+    fn power(&mut self, at: usize, source: &Source<'_>) -> (Vec<Tap>, Term) {
+        let mut signal = self.signal(at, source);
+        if let Some(taps) = signal.taps.take() {
+            return (taps, signal.term);
         }
         let taps = vec![self.element_for(&signal)];
-        let pin = self.pin_of(source.node, &source.pin);
-        if let Some(kept) = self.signals.get_mut(&(source.node, pin))
-            && kept.term == signal.term
+        let place = self.left_at(source.node, &source.pin);
+        if let Some((place, left)) = place
+            && left.term == signal.term
+            && let Some(outputs) = self.signals.get_mut(&source.node)
+            && let Some((_, left)) = outputs.get_mut(place)
         {
-            kept.taps = Some(taps.clone());
+            left.taps = Some(taps.clone());
         }
-        taps
+        (taps, signal.term)
     }
 
     /// An element that is on while the signal's term is.
@@ -265,8 +290,9 @@ impl<'a> Lowering<'_, 'a> {
         let mut taps = Vec::new();
         let mut terms = Vec::new();
         for source in &input.sources {
-            terms.push(self.signal(at, source).term);
-            taps.extend(self.power(at, source));
+            let (power, term) = self.power(at, source);
+            taps.extend(power);
+            terms.push(term);
         }
         let on = |term: &Term| term.form == Form::Truth(true);
         terms.retain(|term| term.form != Form::Truth(false));
@@ -346,4 +372,9 @@ pub(super) fn edge_word(edge: Edge) -> &'static str {
         Edge::Rising => "R_EDGE",
         Edge::Falling => "F_EDGE",
     }
+}
+
+/// Whether `pin` is the pin called `upper`, a name in upper case.
+fn is_same(upper: &str, pin: &str) -> bool {
+    upper.eq_ignore_ascii_case(pin) || !pin.is_ascii() && upper == pin.to_uppercase()
 }

@@ -37,7 +37,7 @@ impl<'a> Lowering<'_, 'a> {
         let instance = remembers.then(|| self.instance(at, node, block));
         let key = match &instance {
             Some(instance) => instance.clone(),
-            None => Operand::new(self.made_up(at, name), node.span),
+            None => Operand::new(self.made_up(at, name).name(), node.span),
         };
         self.writes = true;
         let mut pins = Vec::new();

@@ -12,6 +12,7 @@ use source::Span;
 
 use super::expression::{self, Meaning};
 use super::names::Names;
+use super::network::MadeUp;
 use super::xml::Text;
 use crate::{Network, Operand, Port, Value};
 
@@ -84,8 +85,8 @@ pub(super) struct Term {
     pub(super) span: Span,
     pub(super) form: Form,
     pub(super) reads: Vec<Operand>,
-    /// The function that made it; `MOVE` where none did.
-    pub(super) mnemonic: Name,
+    /// The function that made it, where one did.
+    pub(super) mnemonic: Option<Name>,
 }
 
 /// The form of a term.
@@ -140,7 +141,7 @@ impl Term {
             span: text.span,
             form,
             reads,
-            mnemonic: "MOVE".into(),
+            mnemonic: None,
         }
     }
 
@@ -151,7 +152,7 @@ impl Term {
             span: operand.span,
             form: Form::Variable,
             reads: vec![operand],
-            mnemonic: "MOVE".into(),
+            mnemonic: None,
         }
     }
 
@@ -161,12 +162,12 @@ impl Term {
             span,
             form: Form::Truth(truth),
             reads: Vec::new(),
-            mnemonic: "MOVE".into(),
+            mnemonic: None,
         }
     }
 
     /// `text`, made of `parts`; a made-up name if that is too long.
-    pub(super) fn composed(text: String, parts: &[Term], span: Span, made_up: &Name) -> Self {
+    pub(super) fn composed(text: String, parts: &[Term], span: Span, made_up: &MadeUp<'_>) -> Self {
         let mut reads: Vec<Operand> = Vec::new();
         for read in parts.iter().flat_map(|part| &part.reads).take(LONGEST) {
             if !reads.contains(read) {
@@ -174,7 +175,7 @@ impl Term {
             }
         }
         let text = if text.len() > LONGEST {
-            made_up.clone()
+            made_up.name()
         } else {
             text.into()
         };
@@ -183,12 +184,12 @@ impl Term {
             span,
             form: Form::Other,
             reads,
-            mnemonic: "MOVE".into(),
+            mnemonic: None,
         }
     }
 
     /// The complement.
-    pub(super) fn complement(&self, span: Span, made_up: &Name) -> Self {
+    pub(super) fn complement(&self, span: Span, made_up: &MadeUp<'_>) -> Self {
         let mut term = match &self.form {
             Form::Truth(truth) => return Self::truth(!truth, span),
             Form::Not(operand) => return Self::variable(operand.clone()),
@@ -212,9 +213,16 @@ impl Term {
     }
 
     /// All of `parts`, joined by `word`.
-    pub(super) fn joined(parts: Vec<Term>, word: &str, span: Span, made_up: &Name) -> Self {
-        if let [only] = parts.as_slice() {
-            return only.clone();
+    pub(super) fn joined(
+        mut parts: Vec<Term>,
+        word: &str,
+        span: Span,
+        made_up: &MadeUp<'_>,
+    ) -> Self {
+        if parts.len() == 1
+            && let Some(only) = parts.pop()
+        {
+            return only;
         }
         let texts: Vec<_> = parts.iter().map(Term::enclosed).collect();
         let text = format!("({})", texts.join(&format!(" {word} ")));

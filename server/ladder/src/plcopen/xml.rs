@@ -18,7 +18,7 @@ use quick_xml::events::{BytesRef, BytesStart, Event};
 use source::{Diagnostic, Span, codes};
 
 use crate::reading::Source;
-use crate::xml::{Attribute, Attributes};
+use crate::xml::{Attribute, attributes};
 
 /// Exports nest some twenty levels deep; far more is an attack.
 const DEEPEST: usize = 256;
@@ -221,19 +221,21 @@ pub(super) fn parse<'t>(source: Source<'t>, diagnostics: &mut Vec<Diagnostic>) -
     let mut growth = Growth {
         document: Document {
             source,
-            elements: vec![Element {
-                name: "",
-                span: source.span(0, source.text.len()),
-                attributes: 0..0,
-                pieces: 0..0,
-                after: 0,
-            }],
-            attributes: Vec::new(),
-            pieces: Vec::new(),
+            // About as many as exports hold, to grow the lists seldom.
+            elements: Vec::with_capacity(source.text.len() / 32),
+            attributes: Vec::with_capacity(source.text.len() / 64),
+            pieces: Vec::with_capacity(source.text.len() / 32),
         },
         open: vec![0],
         diagnostics,
     };
+    growth.document.elements.push(Element {
+        name: "",
+        span: source.span(0, source.text.len()),
+        attributes: 0..0,
+        pieces: 0..0,
+        after: 0,
+    });
     growth.read();
     growth.document
 }
@@ -318,9 +320,9 @@ impl<'t> Growth<'t, '_> {
     fn attributes(&mut self, tag: &BytesStart<'_>, start: usize, span: Span) {
         let first = self.document.attributes.len();
         let offset = start - tag.name().into_inner().len();
-        let mut found = Attributes::of(self.document.source.text, start..offset + tag.len());
-        self.document.attributes.extend(&mut found);
-        if found.fault.is_none() {
+        let after_name = start..offset + tag.len();
+        let text = self.document.source.text;
+        if attributes(text, after_name, &mut self.document.attributes).is_ok() {
             return;
         }
         // The XML reader knows what is wrong, and how to go on.

@@ -31,11 +31,11 @@ impl Drawing<'_, '_, '_> {
         let surroundings = self.surroundings;
         if let Some(definition) = surroundings.definitions.get(&*lower(mnemonic)) {
             let block = self.defined_block(it, mnemonic.into(), definition);
-            return self.add(&sources, block, it.place.clone());
+            return self.add(sources, block, it.place.clone());
         }
         let Some(meaning) = catalogue::meaning(mnemonic) else {
             let block = self.unknown_block(it, mnemonic);
-            return self.add(&sources, block, it.place.clone());
+            return self.add(sources, block, it.place.clone());
         };
         let kind = match meaning {
             Meaning::Contact(kind) => ElementKind::Contact(Contact {
@@ -75,7 +75,7 @@ impl Drawing<'_, '_, '_> {
             Meaning::Loop => return self.repeated_call(it, mnemonic, sources),
             Meaning::Return => return self.leave(it, mnemonic, sources),
         };
-        self.add(&sources, kind, it.place.clone())
+        self.add(sources, kind, it.place.clone())
     }
 
     /// An operand that is a word, not a variable: a label or a routine.
@@ -148,7 +148,7 @@ impl Drawing<'_, '_, '_> {
         let [Some(low), Some(high)] = limits else {
             let slots = &[input("Low Limit"), input("Test"), input("High Limit")];
             let block = self.known_block(it, mnemonic, slots, Power::Shapes);
-            return self.add(&sources, block, it.place.clone());
+            return self.add(sources, block, it.place.clone());
         };
         let test = self.operand(it, 1);
         let above = ElementKind::Comparison(Comparison {
@@ -162,11 +162,11 @@ impl Drawing<'_, '_, '_> {
             right: self.operand(it, 2),
         });
         if low <= high {
-            let after_low = self.add(&sources, above, it.place.clone());
-            return self.add(&after_low, below, it.place.clone());
+            let after_low = self.add(sources, above, it.place.clone());
+            return self.add(after_low, below, it.place.clone());
         }
-        let mut ends = self.add(&sources, above, it.place.clone());
-        ends.extend(self.add(&sources, below, it.place.clone()));
+        let mut ends = self.add(sources.clone(), above, it.place.clone());
+        ends.extend(self.add(sources, below, it.place.clone()));
         ends
     }
 
@@ -178,8 +178,8 @@ impl Drawing<'_, '_, '_> {
             operand: self.operand(it, 1),
             kind: CoilKind::Plain,
         });
-        let after_shot = self.add(&sources, shot, it.place.clone());
-        self.add(&after_shot, coil, it.place.clone());
+        let after_shot = self.add(sources.clone(), shot, it.place.clone());
+        self.add(after_shot, coil, it.place.clone());
         sources
     }
 
@@ -196,7 +196,7 @@ impl Drawing<'_, '_, '_> {
         let arguments = self.operands_at(it.operands.get(2..after_inputs));
         let returns = self.operands_at(it.operands.get(after_inputs..));
         let call = ElementKind::Call(Call { routine, arguments });
-        let mut sources = self.add(&sources, call, it.place.clone());
+        let mut sources = self.add(sources, call, it.place.clone());
         let text: Name = self.text(&it.place).into();
         for target in returns {
             let write = ElementKind::Assign(Assignment {
@@ -207,7 +207,7 @@ impl Drawing<'_, '_, '_> {
                 },
                 mnemonic: mnemonic.into(),
             });
-            sources = self.add(&sources, write, it.place.clone());
+            sources = self.add(sources, write, it.place.clone());
         }
         sources
     }
@@ -228,12 +228,12 @@ impl Drawing<'_, '_, '_> {
             input("Step Size"),
         ];
         let block = self.known_block(it, mnemonic, slots, Power::Passes);
-        let sources = self.add(&sources, block, it.place.clone());
+        let sources = self.add(sources, block, it.place.clone());
         let call = ElementKind::Call(Call {
             routine: self.routine(it),
             arguments: Vec::new(),
         });
-        self.add(&sources, call, it.place.clone())
+        self.add(sources, call, it.place.clone())
     }
 
     /// The routine that a call names; one that the file lacks is reported.
@@ -274,10 +274,10 @@ impl Drawing<'_, '_, '_> {
                 familiarity: Familiarity::Known,
                 shapes_power: false,
             });
-            sources = self.add(&sources, values, it.place.clone());
+            sources = self.add(sources, values, it.place.clone());
         }
         let leave = ElementKind::Return { program: false };
-        self.add(&sources, leave, it.place.clone())
+        self.add(sources, leave, it.place.clone())
     }
 
     /// The operands at `ranges`, those left out that are empty.

@@ -198,17 +198,21 @@ impl Names {
     /// The root of a path written in `scope`: of the program that it names, else
     /// local, else the controller's.
     fn find(&self, scope: Scope, path: &operand::Path<'_>) -> Option<usize> {
+        let key = lower(path.root);
         match path.program {
-            Some(program) => self.find_in(self.scope_named(program)?, path.root),
+            Some(program) => self.find_key(self.scope_named(program)?, &key),
             None => self
-                .find_in(scope, path.root)
-                .or_else(|| self.find_in(0, path.root)),
+                .find_key(scope, &key)
+                .or_else(|| self.find_key(0, &key)),
         }
     }
 
     fn find_in(&self, scope: Scope, root: &str) -> Option<usize> {
-        let scope = self.scopes.get(scope)?;
-        scope.places.get(&*lower(root)).copied()
+        self.find_key(scope, &lower(root))
+    }
+
+    fn find_key(&self, scope: Scope, key: &str) -> Option<usize> {
+        self.scopes.get(scope)?.places.get(key).copied()
     }
 
     /// Decides on prefixes and aliases. From here on no root is added.
@@ -263,7 +267,12 @@ impl Names {
             }
         };
         let known = &mut self.scopes[scope].spellings;
-        known.insert(text.to_owned(), Some(name.clone()));
+        match known.get_mut(text) {
+            Some(noted) => *noted = Some(name.clone()),
+            None => {
+                known.insert(text.to_owned(), Some(name.clone()));
+            }
+        }
         name
     }
 
@@ -437,6 +446,11 @@ impl Names {
 
     /// The name of a part of a tag, if some operand uses it.
     pub(super) fn used_part(&self, scope: Scope, tag: &str, part: &str) -> Option<Name> {
+        // Projects comment far more parts than their rungs use.
+        let root = &self.roots[self.find_in(scope, tag)?];
+        if root.used.is_empty() && root.alias_for.is_none() && part.starts_with(['.', '[']) {
+            return None;
+        }
         let text = format!("{tag}{part}");
         let located = self.locate(scope, &operand::path(&text)?, 0)?;
         self.roots[located.root]

@@ -5,6 +5,7 @@
 //! program's. Only its shape is read here; which variable it means depends on
 //! the scope, see [`names`](super::names).
 
+use std::borrow::Cow;
 use std::ops::Range;
 
 use super::neutral::{name_end, quote_end, skip_blanks, starts_name};
@@ -138,7 +139,10 @@ fn bracket_end(text: &str, start: usize) -> Option<usize> {
 /// `2#1010_0000`, `3.0`. A word whose highest of 32 bits is set, written in a
 /// radix, is negative, as the controller takes it.
 pub(super) fn integer(text: &str) -> Option<i64> {
-    let plain: String = text.trim().chars().filter(|&c| c != '_').collect();
+    let plain = match text.contains('_') {
+        true => Cow::Owned(text.trim().replace('_', "")),
+        false => Cow::Borrowed(text.trim()),
+    };
     if let Some((radix, digits)) = plain.split_once('#') {
         let radix = radix
             .parse()

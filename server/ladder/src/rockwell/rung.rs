@@ -129,7 +129,7 @@ impl<'p> Drawing<'_, 'p, '_> {
             sources = match item {
                 Item::Instruction(instruction) => self.instruction(instruction, sources),
                 Item::Branch(branch) => self.branch(&branch.legs, &sources),
-                Item::Unreadable(range) => self.unreadable(range.clone(), &sources),
+                Item::Unreadable(range) => self.unreadable(range.clone(), sources),
             };
         }
         sources
@@ -157,7 +157,7 @@ impl<'p> Drawing<'_, 'p, '_> {
     }
 
     /// Text that is no instruction stands for a box of unknown effect.
-    fn unreadable(&mut self, range: Range<usize>, sources: &[NodeIndex]) -> Vec<NodeIndex> {
+    fn unreadable(&mut self, range: Range<usize>, sources: Vec<NodeIndex>) -> Vec<NodeIndex> {
         let block = Block {
             name: self.text(&range).into(),
             instance: None,
@@ -171,12 +171,15 @@ impl<'p> Drawing<'_, 'p, '_> {
     /// Adds an element in series.
     pub(super) fn add(
         &mut self,
-        sources: &[NodeIndex],
+        mut sources: Vec<NodeIndex>,
         kind: ElementKind,
         range: Range<usize>,
     ) -> Vec<NodeIndex> {
         let span = self.place.text.span(range);
-        vec![self.builder.add_after(sources, kind, span)]
+        let element = self.builder.add_after(&sources, kind, span);
+        sources.clear();
+        sources.push(element);
+        sources
     }
 
     /// The text at `range`.

@@ -18,8 +18,8 @@ impl Attribute {
     /// The attribute with its name and its value at these places.
     pub(crate) fn new(name: Range<usize>, value: Range<usize>) -> Self {
         Self {
-            name: narrow(name),
-            value: narrow(value),
+            name: (narrow(name.start), narrow(name.end)),
+            value: (narrow(value.start), narrow(value.end)),
         }
     }
 
@@ -29,6 +29,11 @@ impl Attribute {
         text.get(start as usize..end as usize).unwrap_or_default()
     }
 
+    /// Bytes of its name.
+    pub(crate) fn name_length(self) -> usize {
+        (self.name.1 - self.name.0) as usize
+    }
+
     /// What stands between the quotes.
     pub(crate) fn value(self) -> Range<usize> {
         let (start, end) = self.value;
@@ -36,86 +41,66 @@ impl Attribute {
     }
 }
 
-/// Finds the attributes of a tag, one after the other.
-pub(crate) struct Attributes<'t> {
-    bytes: &'t [u8],
-    at: usize,
-    /// Where something that is no attribute stands; nothing is found after it.
-    pub(crate) fault: Option<usize>,
+/// No text is given to a reader that 32 bits cannot count.
+fn narrow(place: usize) -> u32 {
+    u32::try_from(place).unwrap_or(u32::MAX)
 }
 
-impl<'t> Attributes<'t> {
-    /// The attributes in bytes `inside` of `text`, which follow a tag's name.
-    /// The text is shorter than 4 GiB.
-    pub(crate) fn of(text: &'t str, inside: Range<usize>) -> Self {
-        let bytes = text.as_bytes();
-        Self {
-            bytes: bytes.get(..inside.end).unwrap_or(bytes),
-            at: inside.start,
-            fault: None,
+/// Adds the attributes in bytes `inside` of `text`, which follow a tag's name.
+///
+/// # Errors
+///
+/// The place of the first thing that is no attribute; those before it are
+/// added.
+pub(crate) fn attributes(
+    text: &str,
+    inside: Range<usize>,
+    found: &mut Vec<Attribute>,
+) -> Result<(), usize> {
+    let bytes = text.as_bytes().get(..inside.end).unwrap_or_default();
+    let mut at = inside.start;
+    loop {
+        let start = end_of(bytes, at, is_blank);
+        if start >= bytes.len() {
+            return Ok(());
         }
+        let (name, value) = attribute(bytes, start).ok_or(start)?;
+        at = value.end + 1;
+        found.push(Attribute::new(name, value));
     }
-}
-
-impl Iterator for Attributes<'_> {
-    type Item = Attribute;
-
-    fn next(&mut self) -> Option<Self::Item> {
-        let start = skip_blanks(self.bytes, self.at);
-        if start >= self.bytes.len() {
-            return None;
-        }
-        match attribute(self.bytes, start) {
-            Some((name, value)) => {
-                self.at = value.end + 1;
-                Some(Attribute::new(name, value))
-            }
-            None => {
-                self.fault = Some(start);
-                self.at = self.bytes.len();
-                None
-            }
-        }
-    }
-}
-
-fn narrow(range: Range<usize>) -> (u32, u32) {
-    let narrow = |place| u32::try_from(place).unwrap_or(u32::MAX);
-    (narrow(range.start), narrow(range.end))
 }
 
 /// The attribute that begins at byte `start`: the places of its name, and of
 /// its value between the quotes.
 fn attribute(bytes: &[u8], start: usize) -> Option<(Range<usize>, Range<usize>)> {
-    let length = bytes.get(start..)?.iter().position(|&b| ends_name(b))?;
-    let name = start..start + length;
-    if name.is_empty() {
+    let name = start..end_of(bytes, start, is_in_name);
+    let equals = end_of(bytes, name.end, is_blank);
+    if name.is_empty() || bytes.get(equals) != Some(&b'=') {
         return None;
     }
-    let equals = skip_blanks(bytes, name.end);
-    if bytes.get(equals) != Some(&b'=') {
-        return None;
-    }
-    let open = skip_blanks(bytes, equals + 1);
+    let open = end_of(bytes, equals + 1, is_blank);
     let quote = *bytes.get(open).filter(|b| matches!(b, b'"' | b'\''))?;
-    let value = open + 1;
-    let length = bytes.get(value..)?.iter().position(|&b| b == quote)?;
-    Some((name, value..value + length))
+    let value = open + 1..end_of(bytes, open + 1, |byte| byte != quote);
+    (value.end < bytes.len()).then_some((name, value))
 }
 
-fn ends_name(byte: u8) -> bool {
-    // Letters come after all of these, and nearly every byte is one.
-    byte <= b'=' && (matches!(byte, b'=' | b'"' | b'\'') || is_blank(byte))
-}
-
-/// The first byte at or after `at` that is no blank, as XML counts blanks.
-fn skip_blanks(bytes: &[u8], mut at: usize) -> usize {
-    while bytes.get(at).is_some_and(|&byte| is_blank(byte)) {
+/// The end of the bytes from `at` on that are of a kind.
+#[inline(always)]
+fn end_of(bytes: &[u8], mut at: usize, is_kind: impl Fn(u8) -> bool) -> usize {
+    while let Some(&byte) = bytes.get(at)
+        && is_kind(byte)
+    {
         at += 1;
     }
     at
 }
 
+fn is_in_name(byte: u8) -> bool {
+    // Letters come after all that ends a name, and nearly every byte is one.
+    byte > b'=' || !(matches!(byte, b'=' | b'"' | b'\'') || is_blank(byte))
+}
+
+/// Whether XML counts a byte as a blank.
 fn is_blank(byte: u8) -> bool {
     matches!(byte, b' ' | b'\t' | b'\r' | b'\n')
 }
@@ -126,13 +111,13 @@ mod tests {
 
     fn check(tag: &str, expected: &str) {
         let name = tag.find(' ').unwrap_or(tag.len());
-        let mut attributes = Attributes::of(tag, name..tag.len());
-        let found: Vec<String> = attributes
-            .by_ref()
-            .map(|found| format!("{}:{}", found.name(tag), &tag[found.value()]))
-            .collect();
-        let fault = attributes.fault.map(|at| format!("! {}", &tag[at..]));
-        let shown: Vec<String> = found.into_iter().chain(fault).collect();
+        let mut found = Vec::new();
+        let fault = attributes(tag, name..tag.len(), &mut found).err();
+        let found = found
+            .iter()
+            .map(|found| format!("{}:{}", found.name(tag), &tag[found.value()]));
+        let fault = fault.map(|at| format!("! {}", &tag[at..]));
+        let shown: Vec<String> = found.chain(fault).collect();
         assert_eq!(shown.join(" "), expected, "{tag}");
     }
 

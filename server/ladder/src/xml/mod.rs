@@ -2,4 +2,4 @@
 
 mod attributes;
 
-pub(crate) use attributes::{Attribute, Attributes};
+pub(crate) use attributes::{Attribute, attributes};

@@ -3,6 +3,7 @@
 use logic::Name;
 
 use super::super::data;
+use super::super::names::lower;
 use super::super::operand;
 use super::super::project::Tag;
 use super::super::xml::Element;
@@ -120,12 +121,19 @@ fn is_timer_or_counter(element: Element<'_, '_>) -> bool {
 /// The path within a tag that nested elements of data stand for: `.tmr[3]`, in
 /// lower case.
 fn path_of(elements: &[Element<'_, '_>]) -> String {
-    let parts = elements.iter().map(|element| match element.name() {
-        "StructureMember" | "ArrayMember" => format!(".{}", name(*element, "Name")),
-        "Element" => name(*element, "Index"),
-        _ => String::new(),
-    });
-    parts.collect::<String>().to_lowercase()
+    let mut path = String::new();
+    for element in elements {
+        let part = match element.name() {
+            "StructureMember" | "ArrayMember" => {
+                path.push('.');
+                element.attribute("Name")
+            }
+            "Element" => element.attribute("Index"),
+            _ => None,
+        };
+        path.push_str(&lower(&part.unwrap_or_default()));
+    }
+    path
 }
 
 fn class_of_tag(element: Element<'_, '_>) -> Class {

@@ -43,7 +43,9 @@ impl<'d, 't> Element<'d, 't> {
         let text = self.document.source.text;
         let own = attributes.0 as usize..attributes.1 as usize;
         let mut own = self.document.attributes.get(own)?.iter();
-        let found = own.find(|own| own.name(text).eq_ignore_ascii_case(name))?;
+        let found = own.find(|own| {
+            own.name_length() == name.len() && own.name(text).eq_ignore_ascii_case(name)
+        })?;
         let value = text.get(found.value())?;
         Some(quick_xml::escape::unescape(value).unwrap_or(Cow::Borrowed(value)))
     }

@@ -18,7 +18,7 @@ use source::{Diagnostic, Span, codes};
 pub(super) use element::Element;
 
 use crate::reading::Source;
-use crate::xml::{Attribute, Attributes};
+use crate::xml::{Attribute, attributes};
 
 /// Deepest nesting that is read. Exports stay below 30.
 const DEEPEST: usize = 256;
@@ -68,8 +68,9 @@ enum NodeKind {
 pub(super) fn read<'t>(source: Source<'t>, diagnostics: &mut Vec<Diagnostic>) -> Document<'t> {
     let mut document = Document {
         source,
-        nodes: Vec::new(),
-        attributes: Vec::new(),
+        // About as many as exports hold, to grow the lists seldom.
+        nodes: Vec::with_capacity(source.text.len() / 64),
+        attributes: Vec::with_capacity(source.text.len() / 32),
     };
     if let Err(diagnostic) = document.fill() {
         diagnostics.push(*diagnostic);
@@ -158,9 +159,8 @@ impl<'t> Document<'t> {
     ) -> Result<usize, Box<Diagnostic>> {
         let inner = inner.start..inner.end.max(inner.start);
         let first = self.attributes.len();
-        let mut attributes = Attributes::of(self.source.text, inner.start + name.len()..inner.end);
-        self.attributes.extend(&mut attributes);
-        if let Some(at) = attributes.fault {
+        let after_name = inner.start + name.len()..inner.end;
+        if let Err(at) = attributes(self.source.text, after_name, &mut self.attributes) {
             return Err(Box::new(
                 Diagnostic::new(
                     codes::XML_SYNTAX,
