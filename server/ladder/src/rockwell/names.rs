@@ -61,9 +61,9 @@ pub(super) struct FirstUse {
 #[derive(Debug)]
 struct Root {
     scope: Scope,
-    spelling: String,
+    spelling: Name,
     /// As operands give it; set by `settle`.
-    display: String,
+    display: Name,
     alias_for: Option<String>,
     declared: bool,
     /// The aliases that stand for it or a part of it, by the tail's key.
@@ -132,7 +132,7 @@ impl Names {
     }
 
     /// Adds the root that is found by `name`.
-    fn add_root(&mut self, scope: Scope, name: &str, spelling: String) -> usize {
+    fn add_root(&mut self, scope: Scope, name: &str, spelling: Name) -> usize {
         let at = self.roots.len();
         let key = lower(name).into_owned();
         self.scopes[scope].places.insert(key, at);
@@ -169,9 +169,9 @@ impl Names {
             let owner = path.program.map_or(0, |name| self.scope_named_or_new(name));
             if self.find(scope, &path).is_none() {
                 let spelling = if lower(path.root).starts_with("s:") {
-                    path.root.to_uppercase()
+                    path.root.to_uppercase().into()
                 } else {
-                    path.root.to_owned()
+                    path.root.into()
                 };
                 self.add_root(owner, path.root, spelling);
             }
@@ -229,7 +229,7 @@ impl Names {
             for (key, &at) in &scope.places {
                 if scopes_with.get(key.as_str()) > Some(&1) {
                     let root = &mut roots[at];
-                    root.display = format!("{mark}{}.{}", scope.name, root.spelling);
+                    root.display = format!("{mark}{}.{}", scope.name, root.spelling).into();
                 }
             }
         }
@@ -290,7 +290,7 @@ impl Names {
         if let Some(name) = self.roots[*root].used.get(&tail.key) {
             return name.clone();
         }
-        let name: Name = self.shown(&located).into();
+        let name = self.shown(&located);
         let Located { root, tail } = located;
         self.roots[root].used.insert(tail.key, name.clone());
         self.first_uses.push(FirstUse {
@@ -368,7 +368,7 @@ impl Names {
 
     /// The name of a located variable: the alias that stands for the longest
     /// part of its path, and the rest.
-    fn shown(&self, located: &Located) -> String {
+    fn shown(&self, located: &Located) -> Name {
         let Located { root, tail } = located;
         let aliases = &self.roots[*root].aliases;
         let mut best = aliases.get("").map(|&alias| (alias, 0));
@@ -382,7 +382,11 @@ impl Names {
         }
         let (root, skipped) = best.unwrap_or((*root, 0));
         let rest = tail.shown.get(skipped..).unwrap_or_default();
-        format!("{}{rest}", self.roots[root].display)
+        let display = &self.roots[root].display;
+        match rest {
+            "" => display.clone(),
+            rest => format!("{display}{rest}").into(),
+        }
     }
 
     /// An expression in one notation: operators between blanks, tags canonical.
@@ -439,7 +443,7 @@ impl Names {
     /// from its declaration.
     pub(super) fn of_declaration(&self, scope: Scope, tag: &str) -> Name {
         match self.find_in(scope, tag) {
-            Some(root) => self.roots[root].display.as_str().into(),
+            Some(root) => self.roots[root].display.clone(),
             None => tag.into(),
         }
     }
@@ -448,8 +452,8 @@ impl Names {
     pub(super) fn used_part(&self, scope: Scope, tag: &str, part: &str) -> Option<Name> {
         // Projects comment far more parts than their rungs use.
         let root = &self.roots[self.find_in(scope, tag)?];
-        if root.used.is_empty() && root.alias_for.is_none() && part.starts_with(['.', '[']) {
-            return None;
+        if root.alias_for.is_none() && is_plain_tail(part) {
+            return root.used.get(&*lower(part)).cloned();
         }
         let text = format!("{tag}{part}");
         let located = self.locate(scope, &operand::path(&text)?, 0)?;
@@ -463,7 +467,7 @@ impl Names {
     pub(super) fn aliased_root(&self, scope: Scope, tag: &str) -> Option<&str> {
         let root = self.find_in(scope, tag)?;
         let located = self.follow_aliases(root, Tail::default());
-        Some(self.roots[located.root].spelling.as_str())
+        Some(&*self.roots[located.root].spelling)
     }
 
     /// The root of a module's tag that nothing declares: `Local:1:I`.
@@ -512,6 +516,19 @@ pub(super) fn lower(name: &str) -> Cow<'_, str> {
     } else {
         Cow::Borrowed(name)
     }
+}
+
+/// Whether a path's tail is shown and compared as it is written: of members
+/// and constant indices, no number with zeros before it.
+fn is_plain_tail(tail: &str) -> bool {
+    let is_plain = |part: &str| {
+        let (name, allowed): (_, fn(&u8) -> bool) = match part.strip_suffix(']') {
+            Some(index) => (index, u8::is_ascii_digit),
+            None => (part, |byte| byte.is_ascii_alphanumeric() || *byte == b'_'),
+        };
+        name.as_bytes().iter().all(allowed) && (name == "0" || !name.starts_with('0'))
+    };
+    tail.starts_with(['.', '[']) && tail.split(['.', '[']).all(is_plain)
 }
 
 /// A whole number without the zeros before it; anything else as it is.

@@ -60,7 +60,7 @@ pub(crate) fn attributes(
     let bytes = text.as_bytes().get(..inside.end).unwrap_or_default();
     let mut at = inside.start;
     loop {
-        let start = end_of(bytes, at, is_blank);
+        let start = end_of_blanks(bytes, at);
         if start >= bytes.len() {
             return Ok(());
         }
@@ -73,31 +73,29 @@ pub(crate) fn attributes(
 /// The attribute that begins at byte `start`: the places of its name, and of
 /// its value between the quotes.
 fn attribute(bytes: &[u8], start: usize) -> Option<(Range<usize>, Range<usize>)> {
-    let name = start..end_of(bytes, start, is_in_name);
-    let equals = end_of(bytes, name.end, is_blank);
+    let name = start..start + bytes.get(start..)?.iter().position(|&b| ends_name(b))?;
+    let equals = end_of_blanks(bytes, name.end);
     if name.is_empty() || bytes.get(equals) != Some(&b'=') {
         return None;
     }
-    let open = end_of(bytes, equals + 1, is_blank);
+    let open = end_of_blanks(bytes, equals + 1);
     let quote = *bytes.get(open).filter(|b| matches!(b, b'"' | b'\''))?;
-    let value = open + 1..end_of(bytes, open + 1, |byte| byte != quote);
-    (value.end < bytes.len()).then_some((name, value))
+    let rest = bytes.get(open + 1..)?;
+    let length = rest.iter().position(|&byte| byte == quote)?;
+    Some((name, open + 1..open + 1 + length))
 }
 
-/// The end of the bytes from `at` on that are of a kind.
-#[inline(always)]
-fn end_of(bytes: &[u8], mut at: usize, is_kind: impl Fn(u8) -> bool) -> usize {
-    while let Some(&byte) = bytes.get(at)
-        && is_kind(byte)
-    {
+/// The first byte from `at` on that is no blank.
+fn end_of_blanks(bytes: &[u8], mut at: usize) -> usize {
+    while bytes.get(at).is_some_and(|&byte| is_blank(byte)) {
         at += 1;
     }
     at
 }
 
-fn is_in_name(byte: u8) -> bool {
+fn ends_name(byte: u8) -> bool {
     // Letters come after all that ends a name, and nearly every byte is one.
-    byte > b'=' || !(matches!(byte, b'=' | b'"' | b'\'') || is_blank(byte))
+    byte <= b'=' && (matches!(byte, b'=' | b'"' | b'\'') || is_blank(byte))
 }
 
 /// Whether XML counts a byte as a blank.

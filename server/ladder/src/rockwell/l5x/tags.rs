@@ -37,7 +37,11 @@ pub(super) fn passed(definition: Element<'_, '_>) -> Vec<(String, Class)> {
 }
 
 fn tag(element: Element<'_, '_>, class: Class) -> Tag {
-    let mut tag = Tag::new(name(element, "Name"), class, element.tag_span());
+    let mut tag = Tag::new(
+        element.attribute("Name").unwrap_or_default(),
+        class,
+        element.tag_span(),
+    );
     tag.data_type = data_type(element);
     tag.description = element.child("Description").and_then(text);
     tag.alias_for = element
@@ -98,12 +102,12 @@ fn presets_inside<'d, 't>(
     let mut holds_preset = None;
     path.push(element);
     for child in element.children() {
-        if child.name() != "DataValueMember" {
+        if !child.is_leaf() && child.name() != "DataValueMember" {
             presets_inside(child, path, presets);
             continue;
         }
         let holds_preset = *holds_preset.get_or_insert_with(|| is_timer_or_counter(element));
-        if holds_preset && child.attribute_is("Name", "PRE") {
+        if holds_preset && child.name() == "DataValueMember" && child.attribute_is("Name", "PRE") {
             let value = child.attribute("Value");
             let value = value.and_then(|value| operand::integer(&value));
             presets.extend(value.map(|value| (path_of(path), value)));

@@ -64,6 +64,11 @@ impl<'d, 't> Element<'d, 't> {
             .map(move |at| Element { document, at })
     }
 
+    /// Whether nothing but blanks is inside.
+    pub(crate) fn is_leaf(self) -> bool {
+        self.node().first_child.is_none()
+    }
+
     /// The elements directly inside that have this name, compared without case.
     pub(crate) fn children_named(self, name: &str) -> impl Iterator<Item = Element<'d, 't>> {
         self.children()
