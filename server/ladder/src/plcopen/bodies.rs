@@ -185,7 +185,7 @@ impl UnitReading<'_, '_, '_, '_> {
     ) -> HashMap<Span, Name> {
         let mut diagram = drawing::read(tag, self.project.diagnostics);
         if let Some((name, id)) = &place.transition {
-            diagram.right_rail_is_condition(name.as_ref(), id);
+            diagram.right_rail_is_condition(name.as_ref(), id.clone());
         }
         let names = &*self.project.names;
         let remembers = |node: &Node<'_>| remembers(node, names);

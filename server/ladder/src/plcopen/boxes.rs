@@ -177,6 +177,13 @@ impl<'a> Lowering<'_, 'a> {
             .collect()
     }
 
+    /// What arrives at the one input of a block; nothing where none is
+    /// connected.
+    pub(super) fn only_arrival(&mut self, at: usize, node: &'a Node<'a>) -> Arrival {
+        let arrival = self.arrivals(at, node, |_| true).pop();
+        arrival.map_or_else(|| Arrival::nothing(node.span), |(_, arrival)| arrival)
+    }
+
     /// The term at the input called `pin`.
     pub(super) fn term_at(&mut self, at: usize, node: &'a Node<'a>, pin: &str) -> Option<Term> {
         let input = node.inputs.iter().find(|input| is(&input.pin, pin))?;

@@ -24,7 +24,7 @@ impl<'t> Diagram<'t> {
     /// A ladder that is the condition of a transition and has no coil hands
     /// the power at its right rail to the transition, which is known by its
     /// name or its id.
-    pub(super) fn right_rail_is_condition(&mut self, name: Option<&Text<'t>>, id: &Cow<'t, str>) {
+    pub(super) fn right_rail_is_condition(&mut self, name: Option<&Text<'t>>, id: Cow<'t, str>) {
         let written = |node: &Node<'_>| {
             matches!(
                 node.kind,

@@ -55,14 +55,7 @@ impl<'a> Lowering<'_, 'a> {
     }
 
     pub(super) fn not(&mut self, at: usize, node: &'a Node<'a>, enable: &Option<Arrival>) {
-        let mut arrivals = self.arrivals(at, node, |_| true);
-        let arrival = match arrivals.pop() {
-            Some((_, arrival)) => arrival,
-            None => Arrival {
-                taps: Vec::new(),
-                term: Term::truth(false, node.span),
-            },
-        };
+        let arrival = self.only_arrival(at, node);
         let made_up = self.made_up(at, "NOT");
         let term = arrival.term.complement(node.span, &made_up);
         let element = self.after(&arrival.taps, ElementKind::Invert, node.span);

@@ -109,14 +109,7 @@ impl<'a> Lowering<'_, 'a> {
     ) {
         self.writes = true;
         let instance = self.instance(at, node, block);
-        let mut arrivals = self.arrivals(at, node, |_| true);
-        let arrival = match arrivals.pop() {
-            Some((_, arrival)) => arrival,
-            None => Arrival {
-                taps: Vec::new(),
-                term: Term::truth(false, node.span),
-            },
-        };
+        let arrival = self.only_arrival(at, node);
         let taps = self.enabled(arrival.taps, node, enable);
         let shot = ElementKind::OneShot(OneShot {
             edge,

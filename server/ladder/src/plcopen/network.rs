@@ -79,6 +79,16 @@ pub(super) struct Arrival {
     pub(super) term: Term,
 }
 
+impl Arrival {
+    /// No power, at the element at `span`.
+    pub(super) fn nothing(span: Span) -> Self {
+        Self {
+            taps: Vec::new(),
+            term: Term::truth(false, span),
+        }
+    }
+}
+
 /// Builds the network of a rung.
 pub(super) fn lower(body: &mut Body<'_>, plan: &Plan, span: Span) -> Network {
     let diagram = body.diagram;
@@ -334,10 +344,7 @@ impl<'a> Lowering<'_, 'a> {
         }
         match input {
             Some(input) => self.arrival(at, input),
-            None => Arrival {
-                taps: Vec::new(),
-                term: Term::truth(false, node.span),
-            },
+            None => Arrival::nothing(node.span),
         }
     }
 

@@ -18,7 +18,7 @@ use quick_xml::events::{BytesRef, BytesStart, Event};
 use source::{Diagnostic, Span, codes};
 
 use crate::reading::Source;
-use crate::xml::{Attribute, attributes};
+use crate::xml::{Attribute, attributes, prefix_length};
 
 /// Exports nest some twenty levels deep; far more is an attack.
 const DEEPEST: usize = 256;
@@ -493,8 +493,7 @@ impl<'t> Growth<'t, '_> {
 
 /// A qualified name without its prefix.
 fn local(name: &str) -> &str {
-    let colon = name.bytes().rposition(|byte| byte == b':');
-    colon.map_or(name, |colon| name.get(colon + 1..).unwrap_or_default())
+    name.get(prefix_length(name)..).unwrap_or_default()
 }
 
 /// Whether `wanted` is what stands after the prefix of `name`.

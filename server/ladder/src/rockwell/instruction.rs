@@ -239,12 +239,8 @@ impl Drawing<'_, '_, '_> {
     /// The routine that a call names; one that the file lacks is reported.
     fn routine(&mut self, it: &Instruction) -> Operand {
         let mut routine = self.word(it, 0);
-        let known = self.place.routines.iter();
-        let found = known
-            .clone()
-            .find(|known| known.to_lowercase() == routine.name.to_lowercase());
-        match found {
-            Some(name) => routine.name = name.as_str().into(),
+        match self.place.routines.get(&lower(&routine.name)) {
+            Some(&name) => routine.name = name.into(),
             None => {
                 let message = format!("the routine `{}` is not in the file", routine.name);
                 self.diagnostics.push(

@@ -12,10 +12,10 @@ use source::{Diagnostic, codes};
 
 use super::catalogue::{self, Meaning, SlotKind};
 use super::declarations::{all_tags, declarations};
-use super::names::{Names, Scope};
+use super::names::{Names, Scope, lower};
 use super::neutral::{self, Instruction, Item, Statement};
 use super::project::{Edits, Extent, Inhibition, Project, RungSource, Unit, UnitKind};
-use super::rung::{self, Definition, Place, Surroundings};
+use super::rung::{self, Callable, Definition, Place, Surroundings};
 use crate::reading::Reading;
 use crate::{Network, PinDirection, Program, Role, Routine, Rung};
 
@@ -23,6 +23,7 @@ use crate::{Network, PinDirection, Program, Role, Routine, Rung};
 struct Parsed<'p, 't> {
     unit: &'p Unit<'t>,
     scope: Scope,
+    callable: Callable<'p>,
     routines: Vec<Vec<ParsedRung<'p, 't>>>,
 }
 
@@ -99,9 +100,14 @@ fn parse<'p, 't>(
         }
         routines.push(rungs);
     }
+    let mut callable = Callable::default();
+    for name in &unit.routine_names {
+        callable.entry(lower(name)).or_insert(name);
+    }
     Parsed {
         unit,
         scope,
+        callable,
         routines,
     }
 }
@@ -173,7 +179,7 @@ impl Parsed<'_, '_> {
         let source = rung.source;
         let place = Place {
             scope: self.scope,
-            routines: &self.unit.routine_names,
+            routines: &self.callable,
             text: &source.text,
             span: source.span,
         };

@@ -7,6 +7,7 @@
 //! is what `[,XIO(c)]` means, and the order of adding elements is Rockwell's
 //! order of solving: left to right, top leg first.
 
+use std::borrow::Cow;
 use std::ops::Range;
 
 use foldhash::{HashMap, HashSet};
@@ -45,12 +46,14 @@ pub(super) struct Definition {
     pub(super) shapes_power: bool,
 }
 
+/// Routines that a rung may call, by their names in lower case.
+pub(super) type Callable<'p> = HashMap<Cow<'p, str>, &'p str>;
+
 /// Where a rung stands.
 #[derive(Clone, Copy)]
 pub(super) struct Place<'p, 't> {
     pub(super) scope: Scope,
-    /// Routines that the rung may call.
-    pub(super) routines: &'p [String],
+    pub(super) routines: &'p Callable<'p>,
     pub(super) text: &'p Passage<'t>,
     /// The whole rung.
     pub(super) span: Span,

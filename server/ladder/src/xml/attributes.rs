@@ -73,16 +73,25 @@ pub(crate) fn attributes(
 /// The attribute that begins at byte `start`: the places of its name, and of
 /// its value between the quotes.
 fn attribute(bytes: &[u8], start: usize) -> Option<(Range<usize>, Range<usize>)> {
-    let name = start..start + bytes.get(start..)?.iter().position(|&b| ends_name(b))?;
-    let equals = end_of_blanks(bytes, name.end);
-    if name.is_empty() || bytes.get(equals) != Some(&b'=') {
+    let mut name_end = start;
+    // Letters come after all that ends a name, and nearly every byte is one.
+    while *bytes.get(name_end)? > b'=' {
+        name_end += 1;
+    }
+    while !ends_name(*bytes.get(name_end)?) {
+        name_end += 1;
+    }
+    let equals = end_of_blanks(bytes, name_end);
+    if name_end == start || bytes.get(equals) != Some(&b'=') {
         return None;
     }
     let open = end_of_blanks(bytes, equals + 1);
     let quote = *bytes.get(open).filter(|b| matches!(b, b'"' | b'\''))?;
-    let rest = bytes.get(open + 1..)?;
-    let length = rest.iter().position(|&byte| byte == quote)?;
-    Some((name, open + 1..open + 1 + length))
+    let mut value_end = open + 1;
+    while *bytes.get(value_end)? != quote {
+        value_end += 1;
+    }
+    Some((start..name_end, open + 1..value_end))
 }
 
 /// The first byte from `at` on that is no blank.
@@ -94,8 +103,7 @@ fn end_of_blanks(bytes: &[u8], mut at: usize) -> usize {
 }
 
 fn ends_name(byte: u8) -> bool {
-    // Letters come after all that ends a name, and nearly every byte is one.
-    byte <= b'=' && (matches!(byte, b'=' | b'"' | b'\'') || is_blank(byte))
+    matches!(byte, b'=' | b'"' | b'\'') || is_blank(byte)
 }
 
 /// Whether XML counts a byte as a blank.

@@ -18,7 +18,7 @@ use source::{Diagnostic, Span, codes};
 pub(super) use element::Element;
 
 use crate::reading::Source;
-use crate::xml::{Attribute, attributes};
+use crate::xml::{Attribute, attributes, prefix_length};
 
 /// Deepest nesting that is read. Exports stay below 30.
 const DEEPEST: usize = 256;
@@ -170,9 +170,8 @@ impl<'t> Document<'t> {
                 .help("what stood before this place is read; export the file again"),
             ));
         }
-        let colon = name.bytes().rposition(|byte| byte == b':');
         let kind = NodeKind::Element {
-            prefix: narrow(colon.map_or(0, |colon| colon + 1)),
+            prefix: narrow(prefix_length(name)),
             name_length: narrow(name.len()),
             attributes: (narrow(first), narrow(self.attributes.len())),
             complete: false,
