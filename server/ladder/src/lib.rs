@@ -18,6 +18,7 @@ mod reading;
 mod rockwell;
 pub mod scan;
 pub mod text;
+mod xml;
 
 pub use model::*;
 pub use reading::{Reading, read};

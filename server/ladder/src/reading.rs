@@ -58,7 +58,7 @@ pub fn read(bytes: &[u8]) -> Reading {
     };
     reading
         .diagnostics
-        .sort_by_key(|diagnostic| (diagnostic.span, diagnostic.code.to_string()));
+        .sort_by_key(|diagnostic| (diagnostic.span, diagnostic.code));
     reading
 }
 
@@ -79,10 +79,7 @@ fn decode(bytes: &[u8]) -> Result<Source<'_>, Box<Diagnostic>> {
     if bytes.starts_with(b"\xFF\xFE") || bytes.starts_with(b"\xFE\xFF") {
         return refuse(0, "the file is UTF-16, and only UTF-8 is read");
     }
-    // `contains` looks at many bytes at once, `position` at each.
-    if bytes.contains(&0)
-        && let Some(at) = bytes.iter().position(|&byte| byte == 0)
-    {
+    if let Some(at) = memchr::memchr(0, bytes) {
         if is_utf16(bytes) {
             return refuse(
                 0,

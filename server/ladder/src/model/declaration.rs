@@ -1,5 +1,6 @@
-use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 
+use foldhash::HashMap;
 use logic::Name;
 use source::Span;
 
@@ -69,11 +70,11 @@ impl Declarations {
         let name = declaration.name.clone();
         self.list.push(declaration);
         match self.places.entry(name) {
-            std::collections::hash_map::Entry::Vacant(free) => {
+            Entry::Vacant(free) => {
                 free.insert(place);
                 None
             }
-            std::collections::hash_map::Entry::Occupied(taken) => Some(&self.list[*taken.get()]),
+            Entry::Occupied(taken) => Some(&self.list[*taken.get()]),
         }
     }
 

@@ -4,8 +4,9 @@
 //! its transitions and actions; a chart holds further ones inline. Each ladder
 //! becomes a routine of its own: what runs together in a scan stands together.
 
-use std::collections::{HashMap, HashSet};
+use std::borrow::Cow;
 
+use foldhash::{HashMap, HashSet};
 use logic::Name;
 use source::{Diagnostic, Span, codes};
 
@@ -30,12 +31,12 @@ pub(super) struct Project<'a> {
 }
 
 /// How a body is called: `POU`, `POU/transition NAME`.
-struct Place {
+struct Place<'t> {
     scope: Name,
     name: Name,
     role: Role,
     /// The transition whose condition it is: its name and id.
-    transition: Option<(Option<Text>, String)>,
+    transition: Option<(Option<Text<'t>>, Cow<'t, str>)>,
 }
 
 /// The routines of a unit; its charts go to the project.
@@ -58,7 +59,7 @@ pub(super) fn routines(project: &mut Project<'_>, at: usize, unit: &Unit<'_, '_>
     };
     let bodies = unit.tag.children().filter(|tag| tag.name() == "body");
     reading.bodies(&main, bodies);
-    for tag in unit.tag.inside(&has_body) {
+    for tag in unit.tag.inside(has_body) {
         let place = reading.place(tag, &name_of(tag));
         reading.bodies(&place, tag.children().filter(|tag| tag.name() == "body"));
     }
@@ -79,9 +80,9 @@ struct UnitReading<'r, 'a, 'd, 't> {
 
 impl UnitReading<'_, '_, '_, '_> {
     /// A transition or action of the unit.
-    fn place(&self, tag: Tag<'_, '_>, name: &str) -> Place {
+    fn place<'t>(&self, tag: Tag<'_, 't>, name: &str) -> Place<'t> {
         let kind = tag.name();
-        let named = tag.attribute("name").cloned();
+        let named = tag.attribute("name");
         let named = named.filter(|text| !text.value.trim().is_empty());
         Place {
             scope: format!("{}/{} {name}", self.unit.name, kind.to_lowercase()).into(),
@@ -95,7 +96,7 @@ impl UnitReading<'_, '_, '_, '_> {
     }
 
     /// Reads worksheets that make one routine.
-    fn bodies<'d, 't: 'd>(&mut self, place: &Place, bodies: impl Iterator<Item = Tag<'d, 't>>) {
+    fn bodies<'d, 't: 'd>(&mut self, place: &Place<'_>, bodies: impl Iterator<Item = Tag<'d, 't>>) {
         let mut rungs = Vec::new();
         let mut span: Option<Span> = None;
         let first = self.routines.len();
@@ -116,7 +117,7 @@ impl UnitReading<'_, '_, '_, '_> {
         }
     }
 
-    fn add(&mut self, place: &Place, mut rungs: Vec<Rung>, span: Span) {
+    fn add(&mut self, place: &Place<'_>, mut rungs: Vec<Rung>, span: Span) {
         for (number, rung) in (0..).zip(&mut rungs) {
             rung.number = number;
         }
@@ -131,7 +132,7 @@ impl UnitReading<'_, '_, '_, '_> {
     }
 
     /// Reads one language's part of a body. Whether it makes a routine.
-    fn language(&mut self, place: &Place, tag: Tag<'_, '_>, rungs: &mut Vec<Rung>) -> bool {
+    fn language(&mut self, place: &Place<'_>, tag: Tag<'_, '_>, rungs: &mut Vec<Rung>) -> bool {
         match tag.name() {
             "LD" | "FBD" => {
                 self.ladder(place, tag, rungs);
@@ -146,7 +147,7 @@ impl UnitReading<'_, '_, '_, '_> {
                 self.other_language(place, tag, tag.name());
                 false
             }
-            "addData" if !tag.inside(&|tag| tag.name() == "CFC").is_empty() => {
+            "addData" if tag.inside(|tag| tag.name() == "CFC").next().is_some() => {
                 self.other_language(place, tag, "CFC");
                 false
             }
@@ -154,7 +155,7 @@ impl UnitReading<'_, '_, '_, '_> {
         }
     }
 
-    fn other_language(&mut self, place: &Place, tag: Tag<'_, '_>, language: &str) {
+    fn other_language(&mut self, place: &Place<'_>, tag: Tag<'_, '_>, language: &str) {
         let message = format!("the body of `{}` is written in {language}", place.scope);
         self.project.diagnostics.push(
             Diagnostic::new(codes::OTHER_LANGUAGE, tag.span(), message)
@@ -162,7 +163,7 @@ impl UnitReading<'_, '_, '_, '_> {
         );
     }
 
-    fn ladder(&mut self, place: &Place, tag: Tag<'_, '_>, rungs: &mut Vec<Rung>) {
+    fn ladder(&mut self, place: &Place<'_>, tag: Tag<'_, '_>, rungs: &mut Vec<Rung>) {
         let networks: Vec<_> = tag
             .children()
             .filter(|part| part.name() == "network")
@@ -178,18 +179,18 @@ impl UnitReading<'_, '_, '_, '_> {
     /// Reads the elements drawn in a body. What conditions among them say.
     fn drawing(
         &mut self,
-        place: &Place,
+        place: &Place<'_>,
         tag: Tag<'_, '_>,
         rungs: &mut Vec<Rung>,
     ) -> HashMap<Span, Name> {
         let mut diagram = drawing::read(tag, self.project.diagnostics);
         if let Some((name, id)) = &place.transition {
-            diagram.right_rail_is_condition(name.as_ref(), id);
+            diagram.right_rail_is_condition(name.as_ref(), id.clone());
         }
         let names = &*self.project.names;
-        let remembers = |node: &Node| remembers(node, names);
+        let remembers = |node: &Node<'_>| remembers(node, names);
         let plans = rungs::plan(&diagram, &remembers, self.project.diagnostics);
-        let mut conditions = HashMap::new();
+        let mut conditions = HashMap::default();
         let mut body = Body {
             consumers: &consumers(&diagram),
             diagram: &diagram,
@@ -213,7 +214,7 @@ impl UnitReading<'_, '_, '_, '_> {
         conditions
     }
 
-    fn chart(&mut self, place: &Place, tag: Tag<'_, '_>, rungs: &mut Vec<Rung>) {
+    fn chart(&mut self, place: &Place<'_>, tag: Tag<'_, '_>, rungs: &mut Vec<Rung>) {
         let conditions = self.drawing(place, tag, rungs);
         let scope = place.scope.clone();
         let chart = chart::read(tag, scope, &conditions, self.project.diagnostics);
@@ -223,7 +224,7 @@ impl UnitReading<'_, '_, '_, '_> {
 
     /// Ladders inside of a chart's conditions and actions.
     fn inline(&mut self, chart: Tag<'_, '_>) {
-        for owner in chart.inside(&|tag| matches!(tag.name(), "transition" | "action")) {
+        for owner in chart.inside(|tag| matches!(tag.name(), "transition" | "action")) {
             let inline = match owner.child("condition") {
                 Some(condition) => condition.child("inline"),
                 None => owner.child("inline"),
@@ -243,15 +244,15 @@ impl UnitReading<'_, '_, '_, '_> {
     }
 }
 
-fn id_of(tag: Tag<'_, '_>) -> String {
+fn id_of<'t>(tag: Tag<'_, 't>) -> Cow<'t, str> {
     let id = tag.attribute("localId");
-    id.map_or_else(String::new, |text| text.value.trim().to_owned())
+    id.map_or(Cow::Borrowed(""), Text::trimmed)
 }
 
 /// Whether an output of the element may be read before it is solved: that of
 /// a block with an instance, or of a variable that is written and read at one
 /// place.
-fn remembers(node: &Node, names: &Names) -> bool {
+fn remembers(node: &Node<'_>, names: &Names) -> bool {
     let block = match &node.kind {
         NodeKind::Block(block) => block,
         NodeKind::InOutVariable { .. } => return true,
@@ -266,7 +267,7 @@ fn remembers(node: &Node, names: &Names) -> bool {
 }
 
 /// By node: the nodes that it feeds.
-fn consumers(diagram: &Diagram) -> Vec<Vec<usize>> {
+fn consumers(diagram: &Diagram<'_>) -> Vec<Vec<usize>> {
     let mut consumers = vec![Vec::new(); diagram.nodes.len()];
     for (at, node) in diagram.nodes.iter().enumerate() {
         for source in node.inputs.iter().flat_map(|input| &input.sources) {
@@ -278,7 +279,7 @@ fn consumers(diagram: &Diagram) -> Vec<Vec<usize>> {
     consumers
 }
 
-fn span(diagram: &Diagram, plan: &Plan) -> Span {
+fn span(diagram: &Diagram<'_>, plan: &Plan) -> Span {
     let nodes = plan.nodes.iter().filter_map(|&at| diagram.nodes.get(at));
     nodes
         .map(|node| node.span)

@@ -23,8 +23,8 @@ use super::xml::Text;
 use crate::{ElementKind, Familiarity, Gate, OneShot, Operand, Port};
 
 impl<'a> Lowering<'_, 'a> {
-    pub(super) fn block(&mut self, at: usize, node: &'a Node, block: &'a BlockType) {
-        let name = block.name.value.as_str();
+    pub(super) fn block(&mut self, at: usize, node: &'a Node<'a>, block: &'a BlockType<'a>) {
+        let name = &*block.name.value;
         let own = self.body.names.unit_kind(name);
         let enable = self.enable(at, node);
         match standard(name).filter(|_| own.is_none()) {
@@ -54,7 +54,7 @@ impl<'a> Lowering<'_, 'a> {
     }
 
     /// What arrives at `EN`, if anything is connected there.
-    fn enable(&mut self, at: usize, node: &'a Node) -> Option<Arrival> {
+    fn enable(&mut self, at: usize, node: &'a Node<'a>) -> Option<Arrival> {
         let input = node.inputs.iter().find(|input| is(&input.pin, "EN"))?;
         let connected = !input.sources.is_empty() || input.broken;
         connected.then(|| self.arrival(at, input))
@@ -64,7 +64,7 @@ impl<'a> Lowering<'_, 'a> {
     pub(super) fn pass_enable(
         &mut self,
         at: usize,
-        node: &Node,
+        node: &Node<'_>,
         taps: Vec<Tap>,
         enable: &Option<Arrival>,
     ) {
@@ -82,7 +82,7 @@ impl<'a> Lowering<'_, 'a> {
     }
 
     /// Applies the marks that a block's outputs bear.
-    fn mark_outputs(&mut self, at: usize, node: &'a Node) {
+    fn mark_outputs(&mut self, at: usize, node: &'a Node<'a>) {
         for output in &node.outputs {
             if !output.negated && output.edge.is_none() {
                 continue;
@@ -128,7 +128,12 @@ impl<'a> Lowering<'_, 'a> {
     }
 
     /// The instance of a block that remembers, or a made-up one.
-    pub(super) fn instance(&mut self, at: usize, node: &Node, block: &BlockType) -> Operand {
+    pub(super) fn instance(
+        &mut self,
+        at: usize,
+        node: &Node<'_>,
+        block: &BlockType<'_>,
+    ) -> Operand {
         if let Some(text) = &block.instance {
             let name = self.body.names.fold(self.body.unit, &text.value);
             return Operand::new(name, text.span);
@@ -138,7 +143,7 @@ impl<'a> Lowering<'_, 'a> {
             Diagnostic::new(codes::NAMELESS, node.span, message)
                 .help("give it an instance; until then it bears a made-up name"),
         );
-        Operand::new(self.made_up(at, &block.name.value), node.span)
+        Operand::new(self.made_up(at, &block.name.value).name(), node.span)
     }
 
     /// `instance.pin` as an operand written where the block is.
@@ -148,7 +153,11 @@ impl<'a> Lowering<'_, 'a> {
     }
 
     /// Joins every connected Boolean input but `EN` to its pin.
-    pub(super) fn join_pins(&mut self, arrivals: Vec<(&'a Input, Arrival)>, element: NodeIndex) {
+    pub(super) fn join_pins(
+        &mut self,
+        arrivals: Vec<(&'a Input<'a>, Arrival)>,
+        element: NodeIndex,
+    ) {
         for (input, arrival) in arrivals {
             let pin = Port::Pin(input.pin.to_uppercase().as_str().into());
             self.join(&arrival.taps, element, pin);
@@ -158,9 +167,9 @@ impl<'a> Lowering<'_, 'a> {
     pub(super) fn arrivals(
         &mut self,
         at: usize,
-        node: &'a Node,
-        wanted: impl Fn(&Input) -> bool,
-    ) -> Vec<(&'a Input, Arrival)> {
+        node: &'a Node<'a>,
+        wanted: impl Fn(&Input<'_>) -> bool,
+    ) -> Vec<(&'a Input<'a>, Arrival)> {
         let inputs = node.inputs.iter();
         inputs
             .filter(|input| !is(&input.pin, "EN") && !input.sources.is_empty() && wanted(input))
@@ -168,13 +177,20 @@ impl<'a> Lowering<'_, 'a> {
             .collect()
     }
 
+    /// What arrives at the one input of a block; nothing where none is
+    /// connected.
+    pub(super) fn only_arrival(&mut self, at: usize, node: &'a Node<'a>) -> Arrival {
+        let arrival = self.arrivals(at, node, |_| true).pop();
+        arrival.map_or_else(|| Arrival::nothing(node.span), |(_, arrival)| arrival)
+    }
+
     /// The term at the input called `pin`.
-    pub(super) fn term_at(&mut self, at: usize, node: &'a Node, pin: &str) -> Option<Term> {
+    pub(super) fn term_at(&mut self, at: usize, node: &'a Node<'a>, pin: &str) -> Option<Term> {
         let input = node.inputs.iter().find(|input| is(&input.pin, pin))?;
         self.term_of(at, input)
     }
 
-    pub(super) fn term_of(&mut self, at: usize, input: &'a Input) -> Option<Term> {
+    pub(super) fn term_of(&mut self, at: usize, input: &'a Input<'a>) -> Option<Term> {
         let term = match input.sources.as_slice() {
             [] => return None,
             [only] => self.signal(at, only).term,
@@ -193,7 +209,7 @@ impl<'a> Lowering<'_, 'a> {
     pub(super) fn set_pins(
         &mut self,
         at: usize,
-        node: &Node,
+        node: &Node<'_>,
         element: NodeIndex,
         instance: &Operand,
         of: &str,
@@ -202,7 +218,7 @@ impl<'a> Lowering<'_, 'a> {
             let data_type = self.body.names.member(of, &output.pin);
             let boolean = data_type.map(|found| found.eq_ignore_ascii_case("BOOL"));
             let operand = self.member(instance, &output.pin);
-            let leaves = Port::Pin(output.pin.as_str().into());
+            let leaves = Port::Pin((&*output.pin).into());
             let signal = Signal {
                 taps: (boolean != Some(false)).then(|| vec![(element, leaves)]),
                 boolean,
@@ -224,7 +240,12 @@ impl<'a> Lowering<'_, 'a> {
     }
 
     /// The `outVariable`s that take an output's value and nothing else's.
-    pub(super) fn targets_of(&self, at: usize, node: &Node, pin: &str) -> Vec<(usize, &'a Text)> {
+    pub(super) fn targets_of(
+        &self,
+        at: usize,
+        node: &Node<'_>,
+        pin: &str,
+    ) -> Vec<(usize, &'a Text<'a>)> {
         let only = node.outputs.iter().filter(|o| !is(&o.pin, "ENO")).count() == 1;
         let targets = self.body.consumers.get(at).map_or(&[][..], Vec::as_slice);
         targets
@@ -248,7 +269,7 @@ impl<'a> Lowering<'_, 'a> {
     pub(super) fn enabled(
         &mut self,
         taps: Vec<Tap>,
-        node: &Node,
+        node: &Node<'_>,
         enable: &Option<Arrival>,
     ) -> Vec<Tap> {
         let Some(enable) = enable else {
@@ -267,7 +288,7 @@ impl<'a> Lowering<'_, 'a> {
     pub(super) fn set_flow(
         &mut self,
         at: usize,
-        node: &'a Node,
+        node: &'a Node<'a>,
         taps: Vec<Tap>,
         term: Term,
         enable: &Option<Arrival>,
@@ -284,12 +305,12 @@ impl<'a> Lowering<'_, 'a> {
         self.pass_enable(at, node, passed, enable);
     }
 
-    pub(super) fn unconnected(&mut self, node: &Node, input: &Input) {
+    pub(super) fn unconnected(&mut self, node: &Node<'_>, input: &Input<'_>) {
         if input.broken {
             return;
         }
         let name = match &node.kind {
-            NodeKind::Block(block) => block.name.value.as_str(),
+            NodeKind::Block(block) => &*block.name.value,
             _ => "block",
         };
         let message = format!("nothing is connected to `{}` of this `{name}`", input.pin);
@@ -301,9 +322,9 @@ impl<'a> Lowering<'_, 'a> {
 }
 
 /// The output of a block that has one besides `ENO`.
-pub(super) fn main_output(node: &Node) -> &str {
+pub(super) fn main_output<'n>(node: &'n Node<'_>) -> &'n str {
     let output = node.outputs.iter().find(|output| !is(&output.pin, "ENO"));
-    output.map_or("OUT", |output| output.pin.as_str())
+    output.map_or("OUT", |output| &*output.pin)
 }
 
 /// Whether a pin is called `name`: case does not matter.

@@ -7,14 +7,15 @@
 //! finds are steps that must all be active, what a step finds are transitions
 //! each of which activates it.
 
-use std::collections::{HashMap, HashSet};
+use std::borrow::Cow;
 
+use foldhash::{HashMap, HashSet};
 use logic::Name;
 use source::{Diagnostic, Span, codes};
 
 use super::interface::name_of;
 use super::names::key;
-use super::xml::Tag;
+use super::xml::{Tag, Text};
 use crate::{Chart, ChartAction, ChartStep, ChartTransition};
 
 /// What an element of a chart is.
@@ -47,7 +48,7 @@ pub(super) fn read(
     };
     let mut parts = steps(body, &mut chart, diagnostics);
     transitions(body, &mut chart, &mut parts, drawn);
-    let places: HashMap<&str, usize> = parts
+    let places: HashMap<Cow<'_, str>, usize> = parts
         .iter()
         .enumerate()
         .filter_map(|(at, part)| Some((id(part.tag, "localId")?, at)))
@@ -57,8 +58,8 @@ pub(super) fn read(
     chart
 }
 
-fn id<'d>(tag: Tag<'d, '_>, attribute: &str) -> Option<&'d str> {
-    let found = tag.attribute(attribute)?.value.trim();
+fn id<'t>(tag: Tag<'_, 't>, attribute: &str) -> Option<Cow<'t, str>> {
+    let found = tag.attribute(attribute)?.trimmed();
     (!found.is_empty()).then_some(found)
 }
 
@@ -68,7 +69,7 @@ fn steps<'d, 't>(
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Vec<Drawn<'d, 't>> {
     let mut parts = Vec::new();
-    let mut named = HashMap::new();
+    let mut named = HashMap::default();
     let is_step = |tag: &Tag<'_, '_>| matches!(tag.name(), "step" | "macroStep");
     for tag in body.children().filter(is_step) {
         let place = chart.steps.len();
@@ -98,8 +99,8 @@ fn steps<'d, 't>(
         match tag.name() {
             "jumpStep" => {
                 let target = tag.attribute("targetName");
-                let target = target.map_or("", |text| text.value.trim());
-                match named.get(&key(target)) {
+                let target = target.map_or(Cow::Borrowed(""), Text::trimmed);
+                match named.get(&key(&target)) {
                     Some(&place) => parts.push(Drawn {
                         part: Part::Step(place),
                         tag,
@@ -176,7 +177,7 @@ fn condition(tag: Tag<'_, '_>, unit: &str, drawn: &HashMap<Span, Name>) -> Name 
 fn join(
     chart: &mut Chart,
     parts: &[Drawn<'_, '_>],
-    places: &HashMap<&str, usize>,
+    places: &HashMap<Cow<'_, str>, usize>,
     diagnostics: &mut Vec<Diagnostic>,
 ) {
     for part in parts {
@@ -216,18 +217,18 @@ fn join(
 fn upstream(
     tag: Tag<'_, '_>,
     parts: &[Drawn<'_, '_>],
-    places: &HashMap<&str, usize>,
+    places: &HashMap<Cow<'_, str>, usize>,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Vec<Part> {
     let mut found = Vec::new();
     if matches!(tag.name(), name if name.ends_with("vergence")) {
         return found;
     }
-    let mut seen = HashSet::new();
+    let mut seen = HashSet::default();
     let mut open: Vec<_> = connections(tag).collect();
     open.reverse();
     while let Some((id, span)) = open.pop() {
-        let Some(part) = places.get(id).and_then(|&at| parts.get(at)) else {
+        let Some(part) = places.get(&id).and_then(|&at| parts.get(at)) else {
             diagnostics.push(
                 Diagnostic::new(
                     codes::DANGLING_CONNECTION,
@@ -249,7 +250,9 @@ fn upstream(
     found
 }
 
-fn connections<'d, 't>(tag: Tag<'d, 't>) -> impl Iterator<Item = (&'d str, Span)> + use<'d, 't> {
+fn connections<'d, 't>(
+    tag: Tag<'d, 't>,
+) -> impl Iterator<Item = (Cow<'t, str>, Span)> + use<'d, 't> {
     tag.children()
         .filter(|point| point.name() == "connectionPointIn")
         .flat_map(Tag::children)
@@ -262,11 +265,11 @@ fn actions(
     body: Tag<'_, '_>,
     chart: &mut Chart,
     parts: &[Drawn<'_, '_>],
-    places: &HashMap<&str, usize>,
+    places: &HashMap<Cow<'_, str>, usize>,
 ) {
     for block in body.children().filter(|tag| tag.name() == "actionBlock") {
         let step = connections(block).find_map(|(id, _)| {
-            let part = places.get(id).and_then(|&at| parts.get(at))?;
+            let part = places.get(&id).and_then(|&at| parts.get(at))?;
             match part.part {
                 Part::Step(step) => Some(step),
                 _ => None,
@@ -281,10 +284,10 @@ fn actions(
 }
 
 fn action(tag: Tag<'_, '_>) -> ChartAction {
-    let word = |name: &str| tag.attribute(name).map_or("", |text| text.value.trim());
+    let word = |name: &str| id(tag, name).unwrap_or_default();
     let qualifier = match (word("qualifier"), word("duration")) {
-        (qualifier, "") => qualifier.to_owned(),
-        (qualifier, duration) => format!("{qualifier} {duration}"),
+        (qualifier, duration) if duration.is_empty() => qualifier,
+        (qualifier, duration) => Cow::Owned(format!("{qualifier} {duration}")),
     };
     let body = match tag.child("reference") {
         Some(reference) => name_of(reference),

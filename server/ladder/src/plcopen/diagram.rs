@@ -6,24 +6,26 @@
 //! here the ids are resolved, and sources are places in [`Diagram::nodes`]. It
 //! is a graph as drawn: no order, no meaning yet.
 
+use std::borrow::Cow;
+
 use source::Span;
 
 use super::xml::Text;
 use crate::{Edge, PinDirection};
 
 /// The elements of a body, in document order.
-pub(super) struct Diagram {
-    pub(super) nodes: Vec<Node>,
+pub(super) struct Diagram<'t> {
+    pub(super) nodes: Vec<Node<'t>>,
     /// Comments and titles with their places.
-    pub(super) comments: Vec<Comment>,
+    pub(super) comments: Vec<Comment<'t>>,
 }
 
-impl Diagram {
+impl<'t> Diagram<'t> {
     /// A ladder that is the condition of a transition and has no coil hands
     /// the power at its right rail to the transition, which is known by its
     /// name or its id.
-    pub(super) fn right_rail_is_condition(&mut self, name: Option<&Text>, id: &str) {
-        let written = |node: &Node| {
+    pub(super) fn right_rail_is_condition(&mut self, name: Option<&Text<'t>>, id: Cow<'t, str>) {
+        let written = |node: &Node<'_>| {
             matches!(
                 node.kind,
                 NodeKind::Coil(_) | NodeKind::OutVariable { .. } | NodeKind::InOutVariable { .. }
@@ -37,21 +39,21 @@ impl Diagram {
             if node.kind == NodeKind::RightRail && fed {
                 node.kind = NodeKind::Condition;
                 node.operand = name.cloned();
-                id.clone_into(&mut node.id);
+                node.id = id.clone();
             }
         }
     }
 }
 
 /// A drawn element.
-pub(super) struct Node {
-    pub(super) kind: NodeKind,
+pub(super) struct Node<'t> {
+    pub(super) kind: NodeKind<'t>,
     /// Its `localId` as written.
-    pub(super) id: String,
+    pub(super) id: Cow<'t, str>,
     /// The variable, expression or label at it.
-    pub(super) operand: Option<Text>,
-    pub(super) inputs: Vec<Input>,
-    pub(super) outputs: Vec<Output>,
+    pub(super) operand: Option<Text<'t>>,
+    pub(super) inputs: Vec<Input<'t>>,
+    pub(super) outputs: Vec<Output<'t>>,
     pub(super) position: Position,
     /// Its `executionOrderId`, 0 where it has none.
     pub(super) order: u64,
@@ -67,12 +69,12 @@ pub(super) struct Position {
 
 /// What an element is.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum NodeKind {
+pub(super) enum NodeKind<'t> {
     LeftRail,
     RightRail,
     Contact(Style),
     Coil(Style),
-    Block(BlockType),
+    Block(BlockType<'t>),
     InVariable {
         negated: bool,
     },
@@ -91,7 +93,7 @@ pub(super) enum NodeKind {
     /// A condition of a transition, which is fed by what is drawn around it.
     Condition,
     /// An element that the format does not have.
-    Foreign(String),
+    Foreign(&'t str),
 }
 
 /// The marks on a contact or coil.
@@ -111,20 +113,20 @@ pub(super) enum Storage {
 
 /// A block's type and instance.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct BlockType {
-    pub(super) name: Text,
-    pub(super) instance: Option<Text>,
+pub(super) struct BlockType<'t> {
+    pub(super) name: Text<'t>,
+    pub(super) instance: Option<Text<'t>>,
 }
 
 /// Where connections arrive.
 #[derive(Clone, Debug)]
-pub(super) struct Input {
+pub(super) struct Input<'t> {
     /// The pin's name; empty on contacts, coils and variables.
-    pub(super) pin: String,
+    pub(super) pin: Cow<'t, str>,
     pub(super) direction: PinDirection,
     pub(super) negated: bool,
     pub(super) edge: Option<Edge>,
-    pub(super) sources: Vec<Source>,
+    pub(super) sources: Vec<Source<'t>>,
     /// Whether a connection to it was reported as leading nowhere.
     pub(super) broken: bool,
     pub(super) span: Span,
@@ -132,8 +134,8 @@ pub(super) struct Input {
 
 /// Where connections leave.
 #[derive(Clone, Debug)]
-pub(super) struct Output {
-    pub(super) pin: String,
+pub(super) struct Output<'t> {
+    pub(super) pin: Cow<'t, str>,
     pub(super) direction: PinDirection,
     pub(super) negated: bool,
     pub(super) edge: Option<Edge>,
@@ -142,15 +144,15 @@ pub(super) struct Output {
 
 /// The element and the output that a connection comes from.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Source {
+pub(super) struct Source<'t> {
     pub(super) node: usize,
-    pub(super) pin: String,
+    pub(super) pin: Cow<'t, str>,
     pub(super) span: Span,
 }
 
 /// A comment, or the title of a network.
-pub(super) struct Comment {
-    pub(super) text: String,
+pub(super) struct Comment<'t> {
+    pub(super) text: Cow<'t, str>,
     pub(super) position: Position,
     /// Number of elements that come before it in the document.
     pub(super) before: usize,

@@ -1,7 +1,8 @@
 //! Reads the elements of a body and resolves the ids that join them.
 
-use std::collections::HashMap;
+use std::borrow::Cow;
 
+use foldhash::HashMap;
 use source::{Diagnostic, Span, codes};
 
 use super::diagram::{
@@ -11,32 +12,32 @@ use super::xml::{Tag, Text};
 use crate::{Edge, PinDirection};
 
 /// A connection as written.
-struct Connection {
+struct Connection<'t> {
     /// The input it arrives at: element and place among its inputs.
     node: usize,
     input: usize,
-    id: String,
-    pin: String,
+    id: Cow<'t, str>,
+    pin: Cow<'t, str>,
     span: Span,
 }
 
-struct Drawing {
-    diagram: Diagram,
-    connections: Vec<Connection>,
+struct Drawing<'t> {
+    diagram: Diagram<'t>,
+    connections: Vec<Connection<'t>>,
     /// Connectors by name, and continuations with theirs.
     connectors: HashMap<String, usize>,
     continuations: Vec<(String, usize)>,
 }
 
 /// Reads the elements of an `LD`, `FBD` or `SFC` body.
-pub(super) fn read(body: Tag<'_, '_>, diagnostics: &mut Vec<Diagnostic>) -> Diagram {
+pub(super) fn read<'t>(body: Tag<'_, 't>, diagnostics: &mut Vec<Diagnostic>) -> Diagram<'t> {
     let mut drawing = Drawing {
         diagram: Diagram {
             nodes: Vec::new(),
             comments: Vec::new(),
         },
         connections: Vec::new(),
-        connectors: HashMap::new(),
+        connectors: HashMap::default(),
         continuations: Vec::new(),
     };
     for tag in body.children() {
@@ -46,8 +47,8 @@ pub(super) fn read(body: Tag<'_, '_>, diagnostics: &mut Vec<Diagnostic>) -> Diag
     drawing.diagram
 }
 
-impl Drawing {
-    fn element(&mut self, tag: Tag<'_, '_>, diagnostics: &mut Vec<Diagnostic>) {
+impl<'t> Drawing<'t> {
+    fn element(&mut self, tag: Tag<'_, 't>, diagnostics: &mut Vec<Diagnostic>) {
         let node = self.diagram.nodes.len();
         let (kind, operand) = match tag.name() {
             "comment" | "vendorElement" => return self.comment(tag),
@@ -69,7 +70,7 @@ impl Drawing {
                 if condition.child("connectionPointIn").is_none() {
                     return;
                 }
-                let named = tag.attribute("name").cloned();
+                let named = tag.attribute("name");
                 let named = named.filter(|text| !text.value.trim().is_empty());
                 self.add(NodeKind::Condition, tag, named);
                 return self.point_in(node, condition, Pin::default());
@@ -109,17 +110,17 @@ impl Drawing {
             "label" => (NodeKind::Label, None),
             "jump" => (NodeKind::Jump, None),
             "return" => (NodeKind::Return, None),
-            other => (NodeKind::Foreign(other.to_owned()), None),
+            other => (NodeKind::Foreign(other), None),
         };
         let operand = match kind {
-            NodeKind::Label | NodeKind::Jump => tag.attribute("label").cloned(),
+            NodeKind::Label | NodeKind::Jump => tag.attribute("label"),
             _ => operand.and_then(Tag::text),
         };
         self.add(kind, tag, operand);
         self.point_in(node, tag, Pin::default());
     }
 
-    fn add(&mut self, kind: NodeKind, tag: Tag<'_, '_>, operand: Option<Text>) {
+    fn add(&mut self, kind: NodeKind<'t>, tag: Tag<'_, 't>, operand: Option<Text<'t>>) {
         let number = |at: Option<Tag<'_, '_>>, name: &str| {
             at.and_then(|tag| tag.attribute(name)?.value.trim().parse::<f64>().ok())
                 .map_or(0, |value| value as i64)
@@ -143,7 +144,7 @@ impl Drawing {
 
     /// All `connectionPointIn` of an element make one input: on a contact,
     /// coil or rail, several points mean what several connections mean.
-    fn point_in(&mut self, node: usize, tag: Tag<'_, '_>, pin: Pin) {
+    fn point_in(&mut self, node: usize, tag: Tag<'_, 't>, pin: Pin<'t>) {
         let points: Vec<_> = tag
             .children()
             .filter(|point| point.name() == "connectionPointIn")
@@ -188,33 +189,33 @@ impl Drawing {
     }
 
     /// An expression written inside an input, in place of a connection.
-    fn value_at(&mut self, node: usize, input: usize, tag: Tag<'_, '_>) {
+    fn value_at(&mut self, node: usize, input: usize, tag: Tag<'_, 't>) {
         let source = self.diagram.nodes.len();
         self.add(NodeKind::InVariable { negated: false }, tag, tag.text());
         self.beside(source, node);
         if let Some(input) = input_of(&mut self.diagram, node, input) {
             input.sources.push(Source {
                 node: source,
-                pin: String::new(),
+                pin: Cow::Borrowed(""),
                 span: tag.span(),
             });
         }
     }
 
     /// A variable written inside an output, in place of an `outVariable`.
-    fn target_at(&mut self, node: usize, pin: &str, tag: Tag<'_, '_>) {
+    fn target_at(&mut self, node: usize, pin: Cow<'t, str>, tag: Tag<'_, 't>) {
         let target = self.diagram.nodes.len();
         self.add(NodeKind::OutVariable { negated: false }, tag, tag.text());
         self.beside(target, node);
         if let Some(added) = self.diagram.nodes.get_mut(target) {
             added.inputs.push(Input {
-                pin: String::new(),
+                pin: Cow::Borrowed(""),
                 direction: PinDirection::Input,
                 negated: false,
                 edge: None,
                 sources: vec![Source {
                     node,
-                    pin: pin.to_owned(),
+                    pin,
                     span: tag.span(),
                 }],
                 broken: false,
@@ -233,11 +234,11 @@ impl Drawing {
         }
     }
 
-    fn block(&mut self, tag: Tag<'_, '_>, diagnostics: &mut Vec<Diagnostic>) {
+    fn block(&mut self, tag: Tag<'_, 't>, diagnostics: &mut Vec<Diagnostic>) {
         let node = self.diagram.nodes.len();
         let named = |name: &str| {
             let text = tag.attribute(name)?;
-            (!text.value.trim().is_empty()).then(|| text.clone())
+            (!text.value.trim().is_empty()).then_some(text)
         };
         let name = named("typeName").unwrap_or_else(|| {
             diagnostics.push(
@@ -245,7 +246,7 @@ impl Drawing {
                     .help("choose its type in the editor it comes from"),
             );
             Text {
-                value: "unnamed".to_owned(),
+                value: Cow::Borrowed("unnamed"),
                 span: tag.span(),
             }
         });
@@ -267,12 +268,12 @@ impl Drawing {
         }
     }
 
-    fn pin(&mut self, node: usize, at: usize, tag: Tag<'_, '_>, direction: PinDirection) {
+    fn pin(&mut self, node: usize, at: usize, tag: Tag<'_, 't>, direction: PinDirection) {
         let mut name = attribute(tag, "formalParameter");
         if name.is_empty() {
             name = match direction {
-                PinDirection::Output => "OUT".to_owned(),
-                _ => format!("IN{}", at + 1),
+                PinDirection::Output => Cow::Borrowed("OUT"),
+                _ => Cow::Owned(format!("IN{}", at + 1)),
             };
         }
         let style = style(tag);
@@ -288,7 +289,7 @@ impl Drawing {
             }
             for point in tag.children().filter(|p| p.name() == "connectionPointOut") {
                 if let Some(expression) = point.child("expression") {
-                    self.target_at(node, &name, expression);
+                    self.target_at(node, name.clone(), expression);
                 }
             }
         }
@@ -302,7 +303,7 @@ impl Drawing {
         }
     }
 
-    fn comment(&mut self, tag: Tag<'_, '_>) {
+    fn comment(&mut self, tag: Tag<'_, 't>) {
         let content = tag
             .child("content")
             .or_else(|| tag.child("alternativeText"));
@@ -326,13 +327,13 @@ impl Drawing {
     }
 
     fn resolve(&mut self, diagnostics: &mut Vec<Diagnostic>) {
-        let mut places = HashMap::new();
+        let mut places = HashMap::default();
         for (at, node) in self.diagram.nodes.iter().enumerate() {
             if !node.id.is_empty() {
                 places.entry(node.id.clone()).or_insert(at);
             }
         }
-        for connection in &self.connections {
+        for connection in std::mem::take(&mut self.connections) {
             let Some(&node) = places.get(&connection.id) else {
                 let message = format!("no element of this body has the id `{}`", connection.id);
                 diagnostics.push(
@@ -347,7 +348,7 @@ impl Drawing {
             };
             let source = Source {
                 node,
-                pin: connection.pin.clone(),
+                pin: connection.pin,
                 span: connection.span,
             };
             if let Some(input) = input_of(&mut self.diagram, connection.node, connection.input) {
@@ -374,11 +375,11 @@ impl Drawing {
             }
             let sources = connector.map(|&node| Source {
                 node,
-                pin: String::new(),
+                pin: Cow::Borrowed(""),
                 span,
             });
             node.inputs.push(Input {
-                pin: String::new(),
+                pin: Cow::Borrowed(""),
                 direction: PinDirection::Input,
                 negated: false,
                 edge: None,
@@ -391,46 +392,49 @@ impl Drawing {
 }
 
 /// A pin that connections arrive at.
-struct Pin {
-    name: String,
+struct Pin<'t> {
+    name: Cow<'t, str>,
     direction: PinDirection,
     style: Style,
 }
 
-impl Default for Pin {
+impl Default for Pin<'_> {
     fn default() -> Self {
         Self {
-            name: String::new(),
+            name: Cow::Borrowed(""),
             direction: PinDirection::Input,
             style: Style::default(),
         }
     }
 }
 
-fn input_of(diagram: &mut Diagram, node: usize, input: usize) -> Option<&mut Input> {
+fn input_of<'d, 't>(
+    diagram: &'d mut Diagram<'t>,
+    node: usize,
+    input: usize,
+) -> Option<&'d mut Input<'t>> {
     diagram.nodes.get_mut(node)?.inputs.get_mut(input)
 }
 
 fn style(tag: Tag<'_, '_>) -> Style {
-    let word = |name: &str| tag.attribute(name).map(|text| text.value.trim());
+    let word = |name: &str| attribute(tag, name);
     Style {
         negated: tag.says("negated"),
-        edge: match word("edge") {
-            Some("rising") => Some(Edge::Rising),
-            Some("falling") => Some(Edge::Falling),
+        edge: match &*word("edge") {
+            "rising" => Some(Edge::Rising),
+            "falling" => Some(Edge::Falling),
             _ => None,
         },
-        storage: match word("storage") {
-            Some("set") => Some(Storage::Set),
-            Some("reset") => Some(Storage::Reset),
+        storage: match &*word("storage") {
+            "set" => Some(Storage::Set),
+            "reset" => Some(Storage::Reset),
             _ => None,
         },
     }
 }
 
-fn attribute(tag: Tag<'_, '_>, name: &str) -> String {
-    tag.attribute(name)
-        .map_or_else(String::new, |text| text.value.trim().to_owned())
+fn attribute<'t>(tag: Tag<'_, 't>, name: &str) -> Cow<'t, str> {
+    tag.attribute(name).map_or(Cow::Borrowed(""), Text::trimmed)
 }
 
 fn name(tag: Tag<'_, '_>) -> String {

@@ -14,7 +14,7 @@ use crate::{
 };
 
 impl<'a> Lowering<'_, 'a> {
-    pub(super) fn element(&mut self, at: usize, node: &'a Node) {
+    pub(super) fn element(&mut self, at: usize, node: &'a Node<'a>) {
         self.writes |= rungs::is_output(node);
         match &node.kind {
             NodeKind::LeftRail | NodeKind::RightRail => {}
@@ -48,7 +48,7 @@ impl<'a> Lowering<'_, 'a> {
         }
     }
 
-    fn contact(&mut self, at: usize, node: &'a Node, style: Style) {
+    fn contact(&mut self, at: usize, node: &'a Node<'a>, style: Style) {
         let operand = self.operand(at, node, "contact");
         let arrival = self.main_arrival(at, node, "contact");
         let made_up = self.made_up(at, "power");
@@ -78,7 +78,7 @@ impl<'a> Lowering<'_, 'a> {
         self.set(at, "", signal);
     }
 
-    fn coil(&mut self, at: usize, node: &'a Node, style: Style) {
+    fn coil(&mut self, at: usize, node: &'a Node<'a>, style: Style) {
         let operand = self.operand(at, node, "coil");
         let arrival = self.main_arrival(at, node, "coil");
         let mut taps = arrival.taps.clone();
@@ -120,12 +120,12 @@ impl<'a> Lowering<'_, 'a> {
         self.set(at, "", signal);
     }
 
-    pub(super) fn end(&mut self, at: usize, node: &'a Node, kind: ElementKind) {
+    pub(super) fn end(&mut self, at: usize, node: &'a Node<'a>, kind: ElementKind) {
         let arrival = self.main_arrival(at, node, "element");
         self.after(&arrival.taps, kind, node.span);
     }
 
-    pub(super) fn variable(&mut self, at: usize, node: &'a Node, negated: bool) {
+    pub(super) fn variable(&mut self, at: usize, node: &'a Node<'a>, negated: bool) {
         let text = match &node.operand {
             Some(text) => text.clone(),
             None => {
@@ -151,7 +151,7 @@ impl<'a> Lowering<'_, 'a> {
     }
 
     /// An `outVariable`: a coil for a Boolean, an assignment for a value.
-    fn target(&mut self, at: usize, node: &'a Node, negated: bool) {
+    fn target(&mut self, at: usize, node: &'a Node<'a>, negated: bool) {
         if self.done.contains(&at) {
             return;
         }
@@ -202,7 +202,7 @@ impl<'a> Lowering<'_, 'a> {
     }
 
     /// Power may come from several places, a value may not.
-    fn one_source(&mut self, node: &'a Node) {
+    fn one_source(&mut self, node: &'a Node<'a>) {
         let sources = node.inputs.iter().flat_map(|input| &input.sources);
         for source in sources.skip(1) {
             let message = "a value comes from one place only, and this is a second one";
@@ -225,13 +225,13 @@ impl<'a> Lowering<'_, 'a> {
         let kind = ElementKind::Assign(Assignment {
             value: term.written_to(&target),
             target,
-            mnemonic: term.mnemonic.clone(),
+            mnemonic: term.mnemonic.clone().unwrap_or_else(|| "MOVE".into()),
         });
         self.after(power, kind, span)
     }
 
     /// Hands on what arrives.
-    fn passage(&mut self, at: usize, node: &'a Node) {
+    fn passage(&mut self, at: usize, node: &'a Node<'a>) {
         let Some(input) = node.inputs.first() else {
             return;
         };
@@ -250,13 +250,13 @@ impl<'a> Lowering<'_, 'a> {
         self.set(at, "", signal);
     }
 
-    pub(super) fn condition(&mut self, at: usize, node: &'a Node) {
+    pub(super) fn condition(&mut self, at: usize, node: &'a Node<'a>) {
         let arrival = self.main_arrival(at, node, "transition");
         let said = arrival.term.text.clone();
         self.body.conditions.insert(node.span, said);
         let operand = match &node.operand {
             Some(text) => self.folded(text),
-            None => Operand::new(self.made_up(at, "transition"), node.span),
+            None => Operand::new(self.made_up(at, "transition").name(), node.span),
         };
         let kind = CoilKind::Plain;
         let coil = ElementKind::Coil(Coil { operand, kind });
@@ -264,7 +264,7 @@ impl<'a> Lowering<'_, 'a> {
     }
 
     /// An element of another format's: kept, and said to be unknown.
-    fn foreign(&mut self, at: usize, node: &'a Node, name: &str) {
+    fn foreign(&mut self, at: usize, node: &'a Node<'a>, name: &str) {
         self.report(
             Diagnostic::new(
                 codes::UNKNOWN_BOX,
@@ -281,7 +281,7 @@ impl<'a> Lowering<'_, 'a> {
                 term: Term::truth(true, node.span),
             },
         };
-        let made_up = self.made_up(at, name);
+        let made_up = self.made_up(at, name).name();
         let kind = ElementKind::Block(Block {
             name: name.into(),
             instance: Some(Operand::new(made_up.clone(), node.span)),

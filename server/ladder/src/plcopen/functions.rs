@@ -10,7 +10,7 @@ use crate::{Block, ElementKind, Familiarity, Operand, Port};
 
 impl<'a> Lowering<'_, 'a> {
     /// `MOVE` without `EN` hands its input on.
-    pub(super) fn pass_value(&mut self, at: usize, node: &'a Node) {
+    pub(super) fn pass_value(&mut self, at: usize, node: &'a Node<'a>) {
         let source = node
             .inputs
             .iter()
@@ -31,11 +31,11 @@ impl<'a> Lowering<'_, 'a> {
     pub(super) fn function(
         &mut self,
         at: usize,
-        node: &'a Node,
-        block: &'a BlockType,
+        node: &'a Node<'a>,
+        block: &'a BlockType<'a>,
         enable: &Option<Arrival>,
     ) {
-        let name = block.name.value.as_str();
+        let name = &*block.name.value;
         let term = self.function_term(at, node, name);
         let pin = main_output(node);
         let of = standard::pin_type(name, pin);
@@ -65,7 +65,7 @@ impl<'a> Lowering<'_, 'a> {
         }
     }
 
-    fn function_term(&mut self, at: usize, node: &'a Node, name: &str) -> Term {
+    fn function_term(&mut self, at: usize, node: &'a Node<'a>, name: &str) -> Term {
         let mut parts = Vec::new();
         for input in node.inputs.iter().filter(|input| !is(&input.pin, "EN")) {
             parts.extend(self.term_of(at, input));
@@ -91,17 +91,17 @@ impl<'a> Lowering<'_, 'a> {
         if let Some(sum) = sum(sign, &parts) {
             term.form = sum;
         }
-        term.mnemonic = upper.into();
+        term.mnemonic = Some(upper.into());
         term
     }
 
     /// A block whose result nobody takes stays in the rung as it is.
-    fn idle(&mut self, node: &'a Node) {
+    fn idle(&mut self, node: &'a Node<'a>) {
         let NodeKind::Block(block) = &node.kind else {
             return;
         };
         let kind = ElementKind::Block(Block {
-            name: block.name.value.as_str().into(),
+            name: (&*block.name.value).into(),
             instance: None,
             pins: Vec::new(),
             familiarity: Familiarity::Known,

@@ -10,14 +10,20 @@ use crate::{Comparison, ElementKind, Gate, Operand, Port};
 
 impl<'a> Lowering<'_, 'a> {
     /// Whether a gate works on words, bit by bit, rather than on Booleans.
-    pub(super) fn over_words(&mut self, at: usize, node: &'a Node) -> bool {
+    pub(super) fn over_words(&mut self, at: usize, node: &'a Node<'a>) -> bool {
         let inputs = node.inputs.iter().filter(|input| !is(&input.pin, "EN"));
         inputs
             .flat_map(|input| &input.sources)
             .any(|source| self.signal(at, source).boolean == Some(false))
     }
 
-    pub(super) fn gate(&mut self, at: usize, node: &'a Node, gate: Gate, enable: &Option<Arrival>) {
+    pub(super) fn gate(
+        &mut self,
+        at: usize,
+        node: &'a Node<'a>,
+        gate: Gate,
+        enable: &Option<Arrival>,
+    ) {
         let word = match gate {
             Gate::And => "AND",
             Gate::Or => "OR",
@@ -48,15 +54,8 @@ impl<'a> Lowering<'_, 'a> {
         self.set_flow(at, node, taps, term, enable);
     }
 
-    pub(super) fn not(&mut self, at: usize, node: &'a Node, enable: &Option<Arrival>) {
-        let mut arrivals = self.arrivals(at, node, |_| true);
-        let arrival = match arrivals.pop() {
-            Some((_, arrival)) => arrival,
-            None => Arrival {
-                taps: Vec::new(),
-                term: Term::truth(false, node.span),
-            },
-        };
+    pub(super) fn not(&mut self, at: usize, node: &'a Node<'a>, enable: &Option<Arrival>) {
+        let arrival = self.only_arrival(at, node);
         let made_up = self.made_up(at, "NOT");
         let term = arrival.term.complement(node.span, &made_up);
         let element = self.after(&arrival.taps, ElementKind::Invert, node.span);
@@ -67,8 +66,8 @@ impl<'a> Lowering<'_, 'a> {
     pub(super) fn compare(
         &mut self,
         at: usize,
-        node: &'a Node,
-        block: &'a BlockType,
+        node: &'a Node<'a>,
+        block: &'a BlockType<'a>,
         relation: Relation,
         enable: &Option<Arrival>,
     ) {
@@ -114,7 +113,7 @@ impl<'a> Lowering<'_, 'a> {
         self.set_flow(at, node, taps, term, enable);
     }
 
-    fn over_booleans(&mut self, at: usize, inputs: &[&'a Input]) -> bool {
+    fn over_booleans(&mut self, at: usize, inputs: &[&'a Input<'a>]) -> bool {
         inputs.len() == 2
             && inputs
                 .iter()
@@ -123,7 +122,13 @@ impl<'a> Lowering<'_, 'a> {
     }
 
     /// Equality of two Booleans is the complement of their exclusive or.
-    fn same(&mut self, at: usize, node: &'a Node, relation: Relation, enable: &Option<Arrival>) {
+    fn same(
+        &mut self,
+        at: usize,
+        node: &'a Node<'a>,
+        relation: Relation,
+        enable: &Option<Arrival>,
+    ) {
         self.gate(at, node, Gate::Xor, enable);
         if relation == Relation::NotEqual {
             return;

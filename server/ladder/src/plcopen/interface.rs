@@ -75,8 +75,8 @@ pub(super) fn units<'d, 't>(
     root: Tag<'d, 't>,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Vec<Unit<'d, 't>> {
-    let tags = root.inside(&|tag| tag.name() == "pou");
-    let mut units: Vec<_> = tags.into_iter().map(unit).collect();
+    let tags = root.inside(|tag| tag.name() == "pou");
+    let mut units: Vec<_> = tags.map(unit).collect();
     for unit in &mut units {
         if unit.name.is_empty() {
             unit.name = "unnamed".into();
@@ -91,13 +91,13 @@ pub(super) fn units<'d, 't>(
 
 fn unit<'d, 't>(tag: Tag<'d, 't>) -> Unit<'d, 't> {
     let name = name_of(tag);
-    let kind = match tag.attribute("pouType").map(|text| text.value.as_str()) {
+    let kind = match tag.attribute("pouType").as_ref().map(|text| &*text.value) {
         Some("functionBlock") => UnitKind::FunctionBlock,
         Some("function") => UnitKind::Function,
         _ => UnitKind::Program,
     };
     let mut variables = Vec::new();
-    for interface in tag.inside(&|tag| tag.name() == "interface") {
+    for interface in tag.inside(|tag| tag.name() == "interface") {
         for section in interface.children() {
             section_variables(section, &mut variables);
         }
@@ -115,8 +115,8 @@ fn unit<'d, 't>(tag: Tag<'d, 't>) -> Unit<'d, 't> {
         }
     }
     let named = |wanted: &str| {
-        let tags = tag.inside(&|tag| tag.name() == wanted);
-        let names = tags.into_iter().map(name_of);
+        let tags = tag.inside(|tag| tag.name() == wanted);
+        let names = tags.map(name_of);
         names.filter(|name| !name.is_empty()).collect()
     };
     Unit {
@@ -131,9 +131,8 @@ fn unit<'d, 't>(tag: Tag<'d, 't>) -> Unit<'d, 't> {
 
 /// Variables that belong to no unit, in document order.
 pub(super) fn globals(root: Tag<'_, '_>) -> Vec<Globals> {
-    let lists = root.inside(&|tag| matches!(tag.name(), "globalVars" | "pou"));
+    let lists = root.inside(|tag| matches!(tag.name(), "globalVars" | "pou"));
     lists
-        .into_iter()
         .filter(|tag| tag.name() == "globalVars")
         .map(|tag| {
             let mut variables = Vec::new();
@@ -148,8 +147,7 @@ pub(super) fn globals(root: Tag<'_, '_>) -> Vec<Globals> {
 
 /// Structures among the project's data types.
 pub(super) fn structures(root: Tag<'_, '_>) -> Vec<Structure> {
-    root.inside(&|tag| tag.name() == "dataType")
-        .into_iter()
+    root.inside(|tag| tag.name() == "dataType")
         .filter_map(|tag| {
             let members = tag.child("baseType")?.child("struct")?.children();
             Some(Structure {
@@ -164,8 +162,7 @@ pub(super) fn structures(root: Tag<'_, '_>) -> Vec<Structure> {
 
 /// The programs that the resources run, in the order in which they name them.
 pub(super) fn running_order(root: Tag<'_, '_>) -> Vec<Name> {
-    root.inside(&|tag| tag.name() == "pouInstance")
-        .into_iter()
+    root.inside(|tag| tag.name() == "pouInstance")
         .filter_map(|tag| {
             // The first edition of the format said `type`.
             let named = tag

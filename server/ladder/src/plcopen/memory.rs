@@ -15,15 +15,15 @@ impl<'a> Lowering<'_, 'a> {
     pub(super) fn timer(
         &mut self,
         at: usize,
-        node: &'a Node,
-        block: &'a BlockType,
+        node: &'a Node<'a>,
+        block: &'a BlockType<'a>,
         kind: TimerKind,
         enable: &Option<Arrival>,
     ) {
         self.writes = true;
         let instance = self.instance(at, node, block);
         let preset_ms = self.preset(at, node, &instance, "PT", expression::milliseconds);
-        let boolean = |input: &Input| !is(&input.pin, "PT");
+        let boolean = |input: &Input<'_>| !is(&input.pin, "PT");
         let arrivals = self.arrivals(at, node, boolean);
         let kind = ElementKind::Timer(Timer {
             kind,
@@ -43,7 +43,7 @@ impl<'a> Lowering<'_, 'a> {
     fn preset<T>(
         &mut self,
         at: usize,
-        node: &'a Node,
+        node: &'a Node<'a>,
         instance: &Operand,
         pin: &str,
         parse: fn(&str) -> Option<T>,
@@ -70,8 +70,8 @@ impl<'a> Lowering<'_, 'a> {
     pub(super) fn counter(
         &mut self,
         at: usize,
-        node: &'a Node,
-        block: &'a BlockType,
+        node: &'a Node<'a>,
+        block: &'a BlockType<'a>,
         kind: CounterKind,
         enable: &Option<Arrival>,
     ) {
@@ -102,21 +102,14 @@ impl<'a> Lowering<'_, 'a> {
     pub(super) fn trigger(
         &mut self,
         at: usize,
-        node: &'a Node,
-        block: &'a BlockType,
+        node: &'a Node<'a>,
+        block: &'a BlockType<'a>,
         edge: Edge,
         enable: &Option<Arrival>,
     ) {
         self.writes = true;
         let instance = self.instance(at, node, block);
-        let mut arrivals = self.arrivals(at, node, |_| true);
-        let arrival = match arrivals.pop() {
-            Some((_, arrival)) => arrival,
-            None => Arrival {
-                taps: Vec::new(),
-                term: Term::truth(false, node.span),
-            },
-        };
+        let arrival = self.only_arrival(at, node);
         let taps = self.enabled(arrival.taps, node, enable);
         let shot = ElementKind::OneShot(OneShot {
             edge,
@@ -148,8 +141,8 @@ impl<'a> Lowering<'_, 'a> {
     pub(super) fn bistable(
         &mut self,
         at: usize,
-        node: &'a Node,
-        block: &'a BlockType,
+        node: &'a Node<'a>,
+        block: &'a BlockType<'a>,
         wins: Dominance,
         enable: &Option<Arrival>,
     ) {

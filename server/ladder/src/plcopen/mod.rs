@@ -38,8 +38,7 @@ mod signal;
 mod standard;
 mod xml;
 
-use std::collections::{HashMap, HashSet};
-
+use foldhash::{HashMap, HashSet};
 use logic::Name;
 use source::{Diagnostic, codes};
 
@@ -105,17 +104,17 @@ fn first_element(root: Tag<'_, '_>) -> source::Span {
 
 /// The name in the content header, where there is one.
 fn project_name(root: Tag<'_, '_>) -> Name {
-    let headers = root.inside(&|tag| matches!(tag.name(), "contentHeader" | "types"));
+    let mut headers = root.inside(|tag| matches!(tag.name(), "contentHeader" | "types"));
     headers
-        .first()
+        .next()
         .filter(|tag| tag.name() == "contentHeader")
-        .map_or_else(|| "".into(), |tag| interface::name_of(*tag))
+        .map_or_else(|| "".into(), interface::name_of)
 }
 
 /// Programs as the resources run them, then the other programs, then blocks
 /// and functions.
 fn solving_order(units: &[Unit<'_, '_>], running: &[Name]) -> Vec<usize> {
-    let mut turns: HashMap<String, usize> = HashMap::new();
+    let mut turns: HashMap<String, usize> = HashMap::default();
     for name in running {
         let turn = turns.len();
         turns.entry(key(name)).or_insert(turn);
@@ -133,13 +132,13 @@ fn solving_order(units: &[Unit<'_, '_>], running: &[Name]) -> Vec<usize> {
 
 /// Every path that occurs anywhere, without case.
 fn mentioned(root: Tag<'_, '_>) -> HashSet<String> {
-    let texts = root.inside(&|tag| match tag.name() {
+    let texts = root.inside(|tag| match tag.name() {
         "ST" | "IL" => true,
         "variable" | "expression" => tag.children().next().is_none(),
         _ => false,
     });
-    let mut paths = HashSet::new();
-    for text in texts.into_iter().filter_map(Tag::text) {
+    let mut paths = HashSet::default();
+    for text in texts.filter_map(Tag::text) {
         let found = expression::variables(&text.value);
         paths.extend(
             found

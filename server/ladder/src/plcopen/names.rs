@@ -9,9 +9,9 @@
 //! * a variable keeps its bare name if no other unit declares it, else it is
 //!   `unit.name`.
 
-use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 
+use foldhash::{HashMap, HashSet};
 use logic::Name;
 
 use super::expression;
@@ -72,13 +72,13 @@ impl Names {
     ) -> (Self, Declarations) {
         let mut names = Self {
             scopes: Vec::new(),
-            globals: HashMap::new(),
-            lists: HashSet::new(),
-            owned: HashSet::new(),
-            addresses: HashMap::new(),
+            globals: HashMap::default(),
+            lists: HashSet::default(),
+            owned: HashSet::default(),
+            addresses: HashMap::default(),
             types: types(units, structures),
             kinds: units.iter().map(|u| (key(&u.name), u.kind)).collect(),
-            spelt: HashMap::new(),
+            spelt: HashMap::default(),
         };
         let mut declarations = Declarations::default();
         for list in globals {
@@ -122,9 +122,9 @@ impl Names {
     ) -> Scope {
         let mut scope = Scope {
             name: unit.name.clone(),
-            symbols: HashMap::new(),
+            symbols: HashMap::default(),
         };
-        let mut places: HashMap<String, Span> = HashMap::new();
+        let mut places: HashMap<String, Span> = HashMap::default();
         for variable in unit.variables.iter().filter(|v| !v.name.is_empty()) {
             let bare = key(&variable.name);
             if let Some(first) = places.get(&bare) {
@@ -405,8 +405,8 @@ fn one_address(variable: &Variable, other: &str, first: Span) -> Diagnostic {
 /// Names that more than one unit declares for itself. Variables at the same
 /// address are one, however many units declare them.
 fn shared_names(units: &[Unit<'_, '_>]) -> HashSet<String> {
-    let mut first: HashMap<String, String> = HashMap::new();
-    let mut shared = HashSet::new();
+    let mut first: HashMap<String, String> = HashMap::default();
+    let mut shared = HashSet::default();
     let mut note = |name: &Name, identity: String| {
         let bare = key(name);
         let seen = first
@@ -439,7 +439,7 @@ fn types(
         let name = name.clone();
         (key(&name), Symbol { name, data_type })
     };
-    let mut types = HashMap::new();
+    let mut types = HashMap::default();
     for structure in structures {
         let members = structure.members.iter();
         let members = members.map(|(name, found)| symbol(name, &Some(found.clone())));
@@ -452,7 +452,7 @@ fn types(
     }
     let step = [("X", "BOOL"), ("T", "TIME")];
     let step = step.map(|(name, found)| symbol(&name.into(), &Some(found.into())));
-    types.insert(STEP.to_owned(), step.into());
+    types.insert(STEP.to_owned(), step.into_iter().collect());
     types
 }
 

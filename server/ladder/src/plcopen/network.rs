@@ -7,8 +7,7 @@
 //! complement of a parallel connection is not the parallel connection of the
 //! complements.
 
-use std::collections::{HashMap, HashSet};
-
+use foldhash::{HashMap, HashSet};
 use logic::Name;
 use petgraph::graph::NodeIndex;
 use source::{Diagnostic, Span, codes};
@@ -25,7 +24,7 @@ use crate::{
 
 /// What the rungs of a body have in common.
 pub(super) struct Body<'a> {
-    pub(super) diagram: &'a Diagram,
+    pub(super) diagram: &'a Diagram<'a>,
     /// When each node is solved.
     pub(super) turns: &'a [usize],
     /// By node: the nodes that it feeds, in document order.
@@ -44,20 +43,50 @@ pub(super) struct Body<'a> {
 /// A rung while it is built.
 pub(super) struct Lowering<'b, 'a> {
     pub(super) body: &'b mut Body<'a>,
-    pub(super) diagram: &'a Diagram,
+    pub(super) diagram: &'a Diagram<'a>,
     pub(super) builder: NetworkBuilder,
-    /// By node and output pin, the pin without case.
-    signals: HashMap<(usize, String), Signal>,
+    /// By node: its output pins, without case, and what leaves them.
+    signals: HashMap<usize, Vec<(String, Signal)>>,
     /// Outputs that were built along with the block that feeds them.
     pub(super) done: HashSet<usize>,
     /// Whether anything in the rung has an effect.
     pub(super) writes: bool,
 }
 
+/// A name that is spelt out only where it is used.
+pub(super) struct MadeUp<'w> {
+    unit: Name,
+    what: &'w str,
+    at: usize,
+    /// The id of the element that it is for.
+    id: &'w str,
+}
+
+impl MadeUp<'_> {
+    /// The name: `Main.power12`.
+    pub(super) fn name(&self) -> Name {
+        let Self { unit, what, at, id } = self;
+        match *id {
+            "" => format!("{unit}.{what}@{at}").into(),
+            id => format!("{unit}.{what}{id}").into(),
+        }
+    }
+}
+
 /// The power that arrives at an input.
 pub(super) struct Arrival {
     pub(super) taps: Vec<Tap>,
     pub(super) term: Term,
+}
+
+impl Arrival {
+    /// No power, at the element at `span`.
+    pub(super) fn nothing(span: Span) -> Self {
+        Self {
+            taps: Vec::new(),
+            term: Term::truth(false, span),
+        }
+    }
 }
 
 /// Builds the network of a rung.
@@ -67,8 +96,8 @@ pub(super) fn lower(body: &mut Body<'_>, plan: &Plan, span: Span) -> Network {
         diagram,
         body,
         builder: NetworkBuilder::new(rail_span(diagram, plan)),
-        signals: HashMap::new(),
-        done: HashSet::new(),
+        signals: HashMap::default(),
+        done: HashSet::default(),
         writes: false,
     };
     for &at in &plan.nodes {
@@ -86,7 +115,7 @@ pub(super) fn lower(body: &mut Body<'_>, plan: &Plan, span: Span) -> Network {
 }
 
 /// The left rail that the rung hangs on, else the place of its first element.
-fn rail_span(diagram: &Diagram, plan: &Plan) -> Span {
+fn rail_span(diagram: &Diagram<'_>, plan: &Plan) -> Span {
     let nodes = plan.nodes.iter().filter_map(|&at| diagram.nodes.get(at));
     let sources = nodes
         .clone()
@@ -109,24 +138,25 @@ impl<'a> Lowering<'_, 'a> {
     }
 
     /// A name for what has none, unlike any other of the project.
-    pub(super) fn made_up(&self, at: usize, what: &str) -> Name {
-        let unit = self.body.names.unit_name(self.body.unit);
-        let node = self.diagram.nodes.get(at);
-        let id = node.map_or("", |node| node.id.as_str());
-        if id.is_empty() {
-            format!("{unit}.{what}@{at}").into()
-        } else {
-            format!("{unit}.{what}{id}").into()
+    pub(super) fn made_up<'w>(&self, at: usize, what: &'w str) -> MadeUp<'w>
+    where
+        'a: 'w,
+    {
+        MadeUp {
+            unit: self.body.names.unit_name(self.body.unit),
+            what,
+            at,
+            id: self.diagram.nodes.get(at).map_or("", |node| &*node.id),
         }
     }
 
-    pub(super) fn folded(&mut self, text: &Text) -> Operand {
+    pub(super) fn folded(&mut self, text: &Text<'_>) -> Operand {
         let name = self.body.names.fold(self.body.unit, &text.value);
         Operand::new(name, text.span)
     }
 
     /// The variable at an element, or a made-up one.
-    pub(super) fn operand(&mut self, at: usize, node: &Node, what: &str) -> Operand {
+    pub(super) fn operand(&mut self, at: usize, node: &Node<'_>, what: &str) -> Operand {
         if let Some(text) = &node.operand {
             return match node.kind {
                 NodeKind::Label | NodeKind::Jump => Operand::new(text.value.trim(), text.span),
@@ -141,32 +171,35 @@ impl<'a> Lowering<'_, 'a> {
             )
             .help("assign one; until then it bears a made-up name"),
         );
-        Operand::new(self.made_up(at, what), node.span)
+        Operand::new(self.made_up(at, what).name(), node.span)
     }
 
     pub(super) fn set(&mut self, at: usize, pin: &str, signal: Signal) {
-        self.signals.insert((at, pin.to_uppercase()), signal);
+        let outputs = self.signals.entry(at).or_default();
+        match outputs.iter_mut().find(|(own, _)| is_same(own, pin)) {
+            Some((_, own)) => *own = signal,
+            None => outputs.push((pin.to_uppercase(), signal)),
+        }
     }
 
-    /// The pin of `node` that `pin` means. Exporters leave the name out, or
-    /// give one (`output`) to elements that have no pins.
-    fn pin_of(&self, node: usize, pin: &str) -> String {
-        let wanted = pin.to_uppercase();
-        if self.signals.contains_key(&(node, wanted.clone())) {
-            return wanted;
-        }
-        let outputs = self.diagram.nodes.get(node).map(|node| &node.outputs);
-        let mut others = outputs
-            .into_iter()
-            .flatten()
-            .map(|output| output.pin.to_uppercase())
-            .filter(|pin| pin != "ENO");
-        others.next().unwrap_or_default()
+    /// The signal that leaves `node` at what `pin` means. Exporters leave the
+    /// name out, or give one (`output`) to elements that have no pins.
+    fn left_at(&self, node: usize, pin: &str) -> Option<(usize, &Signal)> {
+        let outputs = self.signals.get(&node)?;
+        let find = |pin: &str| outputs.iter().position(|(own, _)| is_same(own, pin));
+        let place = find(pin).or_else(|| {
+            let drawn = self.diagram.nodes.get(node)?.outputs.iter();
+            let mut others = drawn.filter(|output| !is_same("ENO", &output.pin));
+            find(others.next().map_or("", |output| &*output.pin))
+        })?;
+        Some((place, &outputs.get(place)?.1))
     }
 
     /// The signal of an output already set.
     pub(super) fn own_signal(&self, at: usize, pin: &str) -> Option<Signal> {
-        self.signals.get(&(at, pin.to_uppercase())).cloned()
+        let mut outputs = self.signals.get(&at)?.iter();
+        let (_, signal) = outputs.find(|(own, _)| is_same(own, pin))?;
+        Some(signal.clone())
     }
 
     /// Whether anything is fed by a node.
@@ -178,7 +211,7 @@ impl<'a> Lowering<'_, 'a> {
     }
 
     /// What a connection hands to the element at `at`.
-    pub(super) fn signal(&mut self, at: usize, source: &Source) -> Signal {
+    pub(super) fn signal(&mut self, at: usize, source: &Source<'_>) -> Signal {
         let Some(from) = self.diagram.nodes.get(source.node) else {
             return Signal::off(source.span);
         };
@@ -191,20 +224,19 @@ impl<'a> Lowering<'_, 'a> {
         if turn(source.node) >= turn(at) {
             return self.recalled(from, source);
         }
-        let pin = self.pin_of(source.node, &source.pin);
-        match self.signals.get(&(source.node, pin)) {
-            Some(signal) => signal.clone(),
+        match self.left_at(source.node, &source.pin) {
+            Some((_, signal)) => signal.clone(),
             None => Signal::off(source.span),
         }
     }
 
     /// What comes from an element that is solved later: a variable or a block's
     /// output as the last scan left it; anything else is a circle, and off.
-    fn recalled(&mut self, from: &'a Node, source: &Source) -> Signal {
+    fn recalled(&mut self, from: &'a Node<'a>, source: &Source<'_>) -> Signal {
         let path = match (&from.kind, &from.operand) {
-            (NodeKind::InOutVariable { .. }, Some(text)) => text.value.clone(),
+            (NodeKind::InOutVariable { .. }, Some(text)) => text.value.to_string(),
             (NodeKind::Block(block), _) => {
-                let pin = match source.pin.as_str() {
+                let pin = match &*source.pin {
                     "" => from.outputs.first().map_or("OUT", |output| &output.pin),
                     pin => pin,
                 };
@@ -222,21 +254,23 @@ impl<'a> Lowering<'_, 'a> {
         Signal::value(term, boolean, source.span)
     }
 
-    /// The power of a connection; an element is made for it where the signal
-    /// is a value so far.
-    pub(super) fn power(&mut self, at: usize, source: &Source) -> Vec<Tap> {
-        let signal = self.signal(at, source);
-        if let Some(taps) = signal.taps {
-            return taps;
+    /// The power and the term of a connection; an element is made for the power
+    /// where the signal is a value so far.
+    fn power(&mut self, at: usize, source: &Source<'_>) -> (Vec<Tap>, Term) {
+        let mut signal = self.signal(at, source);
+        if let Some(taps) = signal.taps.take() {
+            return (taps, signal.term);
         }
         let taps = vec![self.element_for(&signal)];
-        let pin = self.pin_of(source.node, &source.pin);
-        if let Some(kept) = self.signals.get_mut(&(source.node, pin))
-            && kept.term == signal.term
+        let place = self.left_at(source.node, &source.pin);
+        if let Some((place, left)) = place
+            && left.term == signal.term
+            && let Some(outputs) = self.signals.get_mut(&source.node)
+            && let Some((_, left)) = outputs.get_mut(place)
         {
-            kept.taps = Some(taps.clone());
+            left.taps = Some(taps.clone());
         }
-        taps
+        (taps, signal.term)
     }
 
     /// An element that is on while the signal's term is.
@@ -261,13 +295,14 @@ impl<'a> Lowering<'_, 'a> {
     }
 
     /// The power that arrives at an input, its marks applied.
-    pub(super) fn arrival(&mut self, at: usize, input: &Input) -> Arrival {
+    pub(super) fn arrival(&mut self, at: usize, input: &Input<'_>) -> Arrival {
         let made_up = self.made_up(at, "power");
         let mut taps = Vec::new();
         let mut terms = Vec::new();
         for source in &input.sources {
-            terms.push(self.signal(at, source).term);
-            taps.extend(self.power(at, source));
+            let (power, term) = self.power(at, source);
+            taps.extend(power);
+            terms.push(term);
         }
         let on = |term: &Term| term.form == Form::Truth(true);
         terms.retain(|term| term.form != Form::Truth(false));
@@ -294,7 +329,7 @@ impl<'a> Lowering<'_, 'a> {
     }
 
     /// The power that arrives at an element without pins.
-    pub(super) fn main_arrival(&mut self, at: usize, node: &'a Node, what: &str) -> Arrival {
+    pub(super) fn main_arrival(&mut self, at: usize, node: &'a Node<'a>, what: &str) -> Arrival {
         let input = node.inputs.first();
         let connected = input.is_some_and(|input| !input.sources.is_empty() || input.broken);
         if !connected {
@@ -309,10 +344,7 @@ impl<'a> Lowering<'_, 'a> {
         }
         match input {
             Some(input) => self.arrival(at, input),
-            None => Arrival {
-                taps: Vec::new(),
-                term: Term::truth(false, node.span),
-            },
+            None => Arrival::nothing(node.span),
         }
     }
 
@@ -347,4 +379,9 @@ pub(super) fn edge_word(edge: Edge) -> &'static str {
         Edge::Rising => "R_EDGE",
         Edge::Falling => "F_EDGE",
     }
+}
+
+/// Whether `pin` is the pin called `upper`, a name in upper case.
+fn is_same(upper: &str, pin: &str) -> bool {
+    upper.eq_ignore_ascii_case(pin) || !pin.is_ascii() && upper == pin.to_uppercase()
 }

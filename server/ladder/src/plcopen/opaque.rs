@@ -19,12 +19,12 @@ impl<'a> Lowering<'_, 'a> {
     pub(super) fn opaque(
         &mut self,
         at: usize,
-        node: &'a Node,
-        block: &'a BlockType,
+        node: &'a Node<'a>,
+        block: &'a BlockType<'a>,
         familiarity: Familiarity,
         enable: &Option<Arrival>,
     ) {
-        let name = block.name.value.as_str();
+        let name = &*block.name.value;
         if familiarity == Familiarity::Unknown {
             let message = format!("`{name}` is neither of the standard nor defined in this file");
             self.report(
@@ -37,7 +37,7 @@ impl<'a> Lowering<'_, 'a> {
         let instance = remembers.then(|| self.instance(at, node, block));
         let key = match &instance {
             Some(instance) => instance.clone(),
-            None => Operand::new(self.made_up(at, name), node.span),
+            None => Operand::new(self.made_up(at, name).name(), node.span),
         };
         self.writes = true;
         let mut pins = Vec::new();
@@ -73,8 +73,8 @@ impl<'a> Lowering<'_, 'a> {
         &mut self,
         at: usize,
         block: &str,
-        input: &'a Input,
-        wired: &mut Vec<(&'a Input, Arrival)>,
+        input: &'a Input<'a>,
+        wired: &mut Vec<(&'a Input<'a>, Arrival)>,
     ) -> Pin {
         let data_type = self.body.names.member(block, &input.pin);
         let boolean = data_type.map(|found| found.eq_ignore_ascii_case("BOOL"));
@@ -90,7 +90,7 @@ impl<'a> Lowering<'_, 'a> {
             self.term_of(at, input).map(|term| term.operand())
         };
         Pin {
-            name: Some(input.pin.as_str().into()),
+            name: Some((&*input.pin).into()),
             direction: input.direction,
             operand,
         }
@@ -98,7 +98,14 @@ impl<'a> Lowering<'_, 'a> {
 
     /// An output pin, once for every variable that takes its value; a Boolean
     /// one leaves power instead, and is written by a coil.
-    fn output_pins(&mut self, at: usize, node: &Node, block: &str, pin: &str, pins: &mut Vec<Pin>) {
+    fn output_pins(
+        &mut self,
+        at: usize,
+        node: &Node<'_>,
+        block: &str,
+        pin: &str,
+        pins: &mut Vec<Pin>,
+    ) {
         let data_type = self.body.names.member(block, pin);
         let boolean = data_type.map(|found| found.eq_ignore_ascii_case("BOOL"));
         let before = pins.len();

@@ -15,8 +15,7 @@
 //! A circle has no such order. If it leads through a block that remembers, the
 //! block's output is read as the last scan left it; else the circle is cut.
 
-use std::collections::HashMap;
-
+use foldhash::HashMap;
 use petgraph::algo::kosaraju_scc;
 use petgraph::graph::{DiGraph, NodeIndex};
 use petgraph::unionfind::UnionFind;
@@ -45,8 +44,8 @@ type Key = (bool, u64, Position, usize);
 /// The rungs of a drawing. `remembers` tells the blocks whose outputs may be
 /// read before they are solved.
 pub(super) fn plan(
-    diagram: &Diagram,
-    remembers: &dyn Fn(&Node) -> bool,
+    diagram: &Diagram<'_>,
+    remembers: &dyn Fn(&Node<'_>) -> bool,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Plans {
     let circles = circles(diagram);
@@ -61,12 +60,12 @@ pub(super) fn plan(
     Plans { rungs, turns }
 }
 
-fn is_rail(node: &Node) -> bool {
+fn is_rail(node: &Node<'_>) -> bool {
     matches!(node.kind, NodeKind::LeftRail | NodeKind::RightRail)
 }
 
 /// Whether solving the element does something besides passing power.
-pub(super) fn is_output(node: &Node) -> bool {
+pub(super) fn is_output(node: &Node<'_>) -> bool {
     match node.kind {
         NodeKind::Coil(_)
         | NodeKind::OutVariable { .. }
@@ -80,7 +79,7 @@ pub(super) fn is_output(node: &Node) -> bool {
 }
 
 /// The elements that a node is fed by, rails left out.
-fn fed_by<'d>(diagram: &'d Diagram, at: usize) -> impl Iterator<Item = usize> + 'd {
+fn fed_by<'d>(diagram: &'d Diagram<'_>, at: usize) -> impl Iterator<Item = usize> + 'd {
     let inputs = diagram.nodes.get(at).map_or(&[][..], |node| &node.inputs);
     let sources = inputs.iter().flat_map(|input| &input.sources);
     sources.map(|source| source.node).filter(|&node| {
@@ -91,7 +90,7 @@ fn fed_by<'d>(diagram: &'d Diagram, at: usize) -> impl Iterator<Item = usize> + 
 
 /// By node: the number of the circle it lies in; nodes in none have a number
 /// of their own.
-fn circles(diagram: &Diagram) -> Vec<usize> {
+fn circles(diagram: &Diagram<'_>) -> Vec<usize> {
     let mut graph: DiGraph<(), ()> = DiGraph::new();
     for _ in &diagram.nodes {
         graph.add_node(());
@@ -112,7 +111,7 @@ fn circles(diagram: &Diagram) -> Vec<usize> {
 
 /// Where solving begins, in order: outputs, and blocks that feed nothing,
 /// then all else that may be left.
-fn roots(diagram: &Diagram) -> Vec<(Key, usize)> {
+fn roots(diagram: &Diagram<'_>) -> Vec<(Key, usize)> {
     let mut feeds = vec![false; diagram.nodes.len()];
     for at in 0..diagram.nodes.len() {
         if !diagram.nodes.get(at).is_some_and(is_rail) {
@@ -144,9 +143,9 @@ fn roots(diagram: &Diagram) -> Vec<(Key, usize)> {
 /// Puts what `root` needs, then `root`, at the end of `solved`.
 fn visit(
     root: usize,
-    diagram: &Diagram,
+    diagram: &Diagram<'_>,
     circles: &[usize],
-    remembers: &dyn Fn(&Node) -> bool,
+    remembers: &dyn Fn(&Node<'_>) -> bool,
     turns: &mut [usize],
     solved: &mut Vec<usize>,
 ) {
@@ -181,9 +180,9 @@ fn visit(
 }
 
 fn report_circles(
-    diagram: &Diagram,
+    diagram: &Diagram<'_>,
     turns: &[usize],
-    remembers: &dyn Fn(&Node) -> bool,
+    remembers: &dyn Fn(&Node<'_>) -> bool,
     diagnostics: &mut Vec<Diagnostic>,
 ) {
     for (at, node) in diagram.nodes.iter().enumerate() {
@@ -215,7 +214,7 @@ fn report_circles(
 }
 
 /// The connected components in the order of their first output.
-fn components(diagram: &Diagram, roots: &[(Key, usize)], solved: &[usize]) -> Vec<Plan> {
+fn components(diagram: &Diagram<'_>, roots: &[(Key, usize)], solved: &[usize]) -> Vec<Plan> {
     let mut joined = UnionFind::<usize>::new(diagram.nodes.len());
     for (at, node) in diagram.nodes.iter().enumerate() {
         if !is_rail(node) {
@@ -225,7 +224,7 @@ fn components(diagram: &Diagram, roots: &[(Key, usize)], solved: &[usize]) -> Ve
         }
     }
     let mut plans: Vec<(Key, Plan)> = Vec::new();
-    let mut numbers: HashMap<usize, usize> = HashMap::new();
+    let mut numbers: HashMap<usize, usize> = HashMap::default();
     for &(key, root) in roots {
         numbers.entry(joined.find(root)).or_insert_with(|| {
             let plan = Plan {
@@ -250,7 +249,7 @@ fn components(diagram: &Diagram, roots: &[(Key, usize)], solved: &[usize]) -> Ve
 
 /// A comment belongs to the rung that ends first below its upper edge; where
 /// nothing is placed, to the rung that begins first after it.
-fn place_comments(diagram: &Diagram, plans: &mut [Plan]) {
+fn place_comments(diagram: &Diagram<'_>, plans: &mut [Plan]) {
     let placed = diagram
         .nodes
         .iter()

@@ -14,6 +14,7 @@ use source::Span;
 
 use super::expression::{self, Meaning};
 use super::names::Names;
+use super::network::MadeUp;
 use super::xml::Text;
 use crate::{Network, Operand, Port, Value};
 
@@ -86,8 +87,8 @@ pub(super) struct Term {
     pub(super) span: Span,
     pub(super) form: Form,
     pub(super) reads: Rc<[Operand]>,
-    /// The function that made it; `MOVE` where none did.
-    pub(super) mnemonic: Name,
+    /// The function that made it, where one did.
+    pub(super) mnemonic: Option<Name>,
 }
 
 /// The form of a term.
@@ -110,8 +111,8 @@ pub(super) enum Form {
 
 impl Term {
     /// The expression `text` of a unit.
-    pub(super) fn of(text: &Text, unit: usize, names: &mut Names) -> Self {
-        let value = text.value.as_str();
+    pub(super) fn of(text: &Text<'_>, unit: usize, names: &mut Names) -> Self {
+        let value = &*text.value;
         let place = |range: &std::ops::Range<usize>| part(text, range);
         let rewritten = names.rewrite(unit, value);
         let reads: Rc<[Operand]> = rewritten
@@ -142,7 +143,7 @@ impl Term {
             span: text.span,
             form,
             reads,
-            mnemonic: "MOVE".into(),
+            mnemonic: None,
         }
     }
 
@@ -153,7 +154,7 @@ impl Term {
             span: operand.span,
             form: Form::Variable,
             reads: Rc::new([operand]),
-            mnemonic: "MOVE".into(),
+            mnemonic: None,
         }
     }
 
@@ -163,15 +164,15 @@ impl Term {
             span,
             form: Form::Truth(truth),
             reads: Rc::new([]),
-            mnemonic: "MOVE".into(),
+            mnemonic: None,
         }
     }
 
     /// `text`, made of `parts`; a made-up name if that is too long.
-    pub(super) fn composed(text: String, parts: &[Term], span: Span, made_up: &Name) -> Self {
+    pub(super) fn composed(text: String, parts: &[Term], span: Span, made_up: &MadeUp<'_>) -> Self {
         let reads = reads_of(parts);
         let text = if text.len() > LONGEST {
-            made_up.clone()
+            made_up.name()
         } else {
             text.into()
         };
@@ -180,12 +181,12 @@ impl Term {
             span,
             form: Form::Other,
             reads,
-            mnemonic: "MOVE".into(),
+            mnemonic: None,
         }
     }
 
     /// The complement.
-    pub(super) fn complement(&self, span: Span, made_up: &Name) -> Self {
+    pub(super) fn complement(&self, span: Span, made_up: &MadeUp<'_>) -> Self {
         let mut term = match &self.form {
             Form::Truth(truth) => return Self::truth(!truth, span),
             Form::Not(operand) => return Self::variable(operand.clone()),
@@ -209,9 +210,16 @@ impl Term {
     }
 
     /// All of `parts`, joined by `word`.
-    pub(super) fn joined(parts: Vec<Term>, word: &str, span: Span, made_up: &Name) -> Self {
-        if let [only] = parts.as_slice() {
-            return only.clone();
+    pub(super) fn joined(
+        mut parts: Vec<Term>,
+        word: &str,
+        span: Span,
+        made_up: &MadeUp<'_>,
+    ) -> Self {
+        if parts.len() == 1
+            && let Some(only) = parts.pop()
+        {
+            return only;
         }
         let texts: Vec<_> = parts.iter().map(Term::enclosed).collect();
         let text = format!("({})", texts.join(&format!(" {word} ")));
@@ -296,7 +304,7 @@ fn truth_word(truth: bool) -> &'static str {
 
 /// The bytes of a part of a text. Where its value has another length than its
 /// bytes (an entity), the bytes of the whole.
-fn part(text: &Text, range: &std::ops::Range<usize>) -> Span {
+fn part(text: &Text<'_>, range: &std::ops::Range<usize>) -> Span {
     if text.value.len() != text.span.len() {
         return text.span;
     }

@@ -9,7 +9,8 @@
 //! read. Namespaces are ignored: exporters disagree about them, and the local
 //! names never clash.
 
-use std::collections::HashSet;
+use std::borrow::Cow;
+use std::ops::Range;
 
 use quick_xml::Reader;
 use quick_xml::errors::{Error, SyntaxError};
@@ -17,33 +18,57 @@ use quick_xml::events::{BytesRef, BytesStart, Event};
 use source::{Diagnostic, Span, codes};
 
 use crate::reading::Source;
+use crate::xml::{Attribute, attributes, prefix_length, repeated};
 
-/// Exports nest some twenty levels deep; far more is an attack, and a tree
-/// this shallow may be walked by recursion.
+/// Exports nest some twenty levels deep; far more is an attack.
 const DEEPEST: usize = 256;
 
 /// A text with the bytes it was read from, without the blanks around it.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Text {
-    pub(super) value: String,
+pub(super) struct Text<'t> {
+    pub(super) value: Cow<'t, str>,
     pub(super) span: Span,
 }
 
-/// The tree; its node 0 stands for the document and holds the root element.
+impl<'t> Text<'t> {
+    /// The text without the blanks at its ends.
+    pub(super) fn trimmed(self) -> Cow<'t, str> {
+        match self.value {
+            Cow::Borrowed(value) => Cow::Borrowed(value.trim()),
+            Cow::Owned(value) => Cow::Owned(value.trim().to_owned()),
+        }
+    }
+}
+
+/// The tree; its element 0 stands for the document and holds the root element.
 pub(super) struct Document<'t> {
-    nodes: Vec<Node<'t>>,
+    source: Source<'t>,
+    elements: Vec<Element<'t>>,
+    /// The attributes of all elements, in document order.
+    attributes: Vec<Attribute>,
+    /// The pieces of text of all elements, in document order.
+    pieces: Vec<Piece>,
 }
 
-struct Node<'t> {
+/// An element. All that is inside of it follows it in the lists, up to what is
+/// after it.
+struct Element<'t> {
     name: &'t str,
-    attributes: Vec<(&'t str, Text)>,
-    content: Vec<Content>,
+    /// From the start tag's `<` to the end tag's `>`.
     span: Span,
+    attributes: Range<u32>,
+    pieces: Range<u32>,
+    /// The first element that is not inside.
+    after: u32,
 }
 
-enum Content {
-    Tag(usize),
-    Text(Text),
+/// A piece of text: bytes of the file as they are, or a character written as
+/// an entity.
+#[derive(Clone, Copy)]
+struct Piece {
+    start: u32,
+    end: u32,
+    entity: Option<char>,
 }
 
 /// An element of the tree.
@@ -61,48 +86,74 @@ impl<'t> Document<'t> {
             at: 0,
         }
     }
+
+    fn written(&self, piece: Piece) -> &'t str {
+        let range = piece.start as usize..piece.end as usize;
+        self.source.text.get(range).unwrap_or_default()
+    }
+
+    fn is_blank(&self, piece: Piece) -> bool {
+        match piece.entity {
+            Some(character) => character.is_whitespace(),
+            None => self.written(piece).trim_start().is_empty(),
+        }
+    }
+
+    /// The bytes of a piece without blanks; those of an entity are kept whole.
+    fn trimmed(&self, piece: Piece) -> Span {
+        let (mut start, mut end) = (piece.start as usize, piece.end as usize);
+        if piece.entity.is_none() {
+            let text = self.written(piece);
+            start += text.len() - text.trim_start().len();
+            end -= text.len() - text.trim_end().len();
+        }
+        self.source.span(start, end)
+    }
 }
 
 impl<'d, 't> Tag<'d, 't> {
-    fn node(self) -> &'d Node<'t> {
-        &self.document.nodes[self.at]
+    fn element(self) -> &'d Element<'t> {
+        &self.document.elements[self.at]
     }
 
     /// The local name.
     pub(super) fn name(self) -> &'t str {
-        self.node().name
+        self.element().name
     }
 
     /// From the start tag's `<` to the end tag's `>`.
     pub(super) fn span(self) -> Span {
-        self.node().span
+        self.element().span
     }
 
     /// The attribute with that local name.
-    pub(super) fn attribute(self, name: &str) -> Option<&'d Text> {
-        self.node()
-            .attributes
-            .iter()
-            .find(|(found, _)| *found == name)
-            .map(|(_, text)| text)
+    pub(super) fn attribute(self, name: &str) -> Option<Text<'t>> {
+        let source = self.document.source;
+        let own = wide(&self.element().attributes);
+        let mut own = self.document.attributes.get(own)?.iter();
+        let found = own.find(|own| has_local_name(own.name(source.text), name))?;
+        let range = found.value();
+        let value = source.text.get(range.clone())?;
+        Some(Text {
+            value: quick_xml::escape::unescape(value).unwrap_or(Cow::Borrowed(value)),
+            span: source.span(range.start, range.end),
+        })
     }
 
     /// Whether the attribute says `true`.
     pub(super) fn says(self, name: &str) -> bool {
         self.attribute(name)
-            .is_some_and(|text| matches!(text.value.as_str(), "true" | "TRUE" | "1"))
+            .is_some_and(|text| matches!(&*text.value, "true" | "TRUE" | "1"))
     }
 
     /// The elements directly inside.
-    pub(super) fn children(self) -> impl Iterator<Item = Tag<'d, 't>> {
+    pub(super) fn children(self) -> impl Iterator<Item = Tag<'d, 't>> + Clone {
         let document = self.document;
-        self.node()
-            .content
-            .iter()
-            .filter_map(move |part| match part {
-                Content::Tag(at) => Some(Tag { document, at: *at }),
-                Content::Text(_) => None,
-            })
+        let after = self.element().after as usize;
+        let child = move |at: usize| (at < after).then_some(Tag { document, at });
+        std::iter::successors(child(self.at + 1), move |tag| {
+            child(tag.element().after as usize)
+        })
     }
 
     /// The first element of that name directly inside.
@@ -112,98 +163,85 @@ impl<'d, 't> Tag<'d, 't> {
 
     /// All elements inside at any depth, in document order, that `wanted`
     /// picks; what lies inside a picked one is not looked at.
-    pub(super) fn inside(self, wanted: &dyn Fn(Tag<'d, 't>) -> bool) -> Vec<Tag<'d, 't>> {
-        let mut found = Vec::new();
-        let mut open: Vec<_> = self.children().collect();
-        open.reverse();
-        while let Some(tag) = open.pop() {
-            if wanted(tag) {
-                found.push(tag);
-                continue;
-            }
-            let before = open.len();
-            open.extend(tag.children());
-            open[before..].reverse();
-        }
-        found
+    pub(super) fn inside(
+        self,
+        wanted: impl Fn(Tag<'d, 't>) -> bool,
+    ) -> impl Iterator<Item = Tag<'d, 't>> {
+        let document = self.document;
+        let end = self.element().after as usize;
+        let mut next = self.at + 1;
+        std::iter::from_fn(move || {
+            let mut left = (next..end).map(|at| Tag { document, at });
+            let found = left.find(|tag| wanted(*tag));
+            next = found.map_or(end, |tag| tag.element().after as usize);
+            found
+        })
     }
 
     /// The text inside, that of inner elements too, without the blanks around
     /// it; `None` if there is nothing but blanks.
-    pub(super) fn text(self) -> Option<Text> {
-        let mut pieces = Vec::new();
-        self.collect(&mut pieces);
-        let first = pieces.iter().position(|piece| !blank(piece))?;
-        let last = pieces.iter().rposition(|piece| !blank(piece))?;
-        let mut whole = String::new();
-        for (at, piece) in pieces.iter().enumerate().take(last + 1).skip(first) {
-            let mut value = piece.value.as_str();
-            if at == first {
-                value = value.trim_start();
-            }
-            if at == last {
-                value = value.trim_end();
-            }
-            whole.push_str(value);
-        }
-        let span = trimmed(pieces.get(first)?).cover(trimmed(pieces.get(last)?));
-        Some(Text { value: whole, span })
-    }
-
-    fn collect(self, pieces: &mut Vec<&'d Text>) {
-        for part in &self.node().content {
-            match part {
-                Content::Text(text) => pieces.push(text),
-                Content::Tag(at) => Tag {
-                    document: self.document,
-                    at: *at,
+    pub(super) fn text(self) -> Option<Text<'t>> {
+        let document = self.document;
+        let pieces = document.pieces.get(wide(&self.element().pieces))?;
+        let is_said = |piece: &Piece| !document.is_blank(*piece);
+        let first = pieces.iter().position(is_said)?;
+        let last = pieces.iter().rposition(is_said)?;
+        let said = pieces.get(first..=last)?;
+        let value = match said {
+            [only] if only.entity.is_none() => Cow::Borrowed(document.written(*only).trim()),
+            _ => {
+                let mut whole = String::new();
+                for piece in said {
+                    match piece.entity {
+                        Some(character) => whole.push(character),
+                        None => whole.push_str(document.written(*piece)),
+                    }
                 }
-                .collect(pieces),
+                Cow::Owned(whole.trim().to_owned())
             }
-        }
+        };
+        let first = document.trimmed(*said.first()?);
+        let span = first.cover(document.trimmed(*said.last()?));
+        Some(Text { value, span })
     }
 }
 
-fn blank(text: &Text) -> bool {
-    text.value.trim().is_empty()
+fn wide(range: &Range<u32>) -> Range<usize> {
+    range.start as usize..range.end as usize
 }
 
-/// The bytes of a piece without blanks. Where the value has another length
-/// than its bytes (an entity), the bytes are kept whole.
-fn trimmed(piece: &Text) -> Span {
-    if piece.value.len() != piece.span.len() {
-        return piece.span;
-    }
-    let before = piece.value.len() - piece.value.trim_start().len();
-    let after = piece.value.len() - piece.value.trim_end().len();
-    Span::new(
-        piece.span.start as usize + before,
-        piece.span.end as usize - after,
-    )
+/// A place in a text, or in a list that is shorter. No reader is given a text
+/// that 32 bits cannot count.
+fn narrow(place: usize) -> u32 {
+    u32::try_from(place).unwrap_or(u32::MAX)
 }
 
 /// Reads the text as a tree. What is wrong with it goes to `diagnostics`.
 pub(super) fn parse<'t>(source: Source<'t>, diagnostics: &mut Vec<Diagnostic>) -> Document<'t> {
     let mut growth = Growth {
-        source,
-        nodes: vec![Node {
-            name: "",
-            attributes: Vec::new(),
-            content: Vec::new(),
-            span: source.span(0, source.text.len()),
-        }],
+        document: Document {
+            source,
+            // About as many as exports hold, to grow the lists seldom.
+            elements: Vec::with_capacity(source.text.len() / 32),
+            attributes: Vec::with_capacity(source.text.len() / 64),
+            pieces: Vec::with_capacity(source.text.len() / 32),
+        },
         open: vec![0],
         diagnostics,
     };
+    growth.document.elements.push(Element {
+        name: "",
+        span: source.span(0, source.text.len()),
+        attributes: 0..0,
+        pieces: 0..0,
+        after: 0,
+    });
     growth.read();
-    Document {
-        nodes: growth.nodes,
-    }
+    growth.document
 }
 
 struct Growth<'t, 'r> {
-    source: Source<'t>,
-    nodes: Vec<Node<'t>>,
+    document: Document<'t>,
     /// The elements not yet closed, the document first.
     open: Vec<usize>,
     diagnostics: &'r mut Vec<Diagnostic>,
@@ -211,7 +249,8 @@ struct Growth<'t, 'r> {
 
 impl<'t> Growth<'t, '_> {
     fn read(&mut self) {
-        let mut reader = Reader::from_str(self.source.text);
+        let source = self.document.source;
+        let mut reader = Reader::from_str(source.text);
         let config = reader.config_mut();
         config.check_end_names = false;
         config.allow_unmatched_ends = true;
@@ -219,7 +258,7 @@ impl<'t> Growth<'t, '_> {
             let start = reader.buffer_position() as usize;
             let event = reader.read_event();
             let end = reader.buffer_position() as usize;
-            let span = self.source.span(start, end);
+            let span = source.span(start, end);
             match event {
                 Ok(Event::Start(tag)) => {
                     if self.open.len() > DEEPEST {
@@ -231,18 +270,15 @@ impl<'t> Growth<'t, '_> {
                 Ok(Event::Empty(tag)) => {
                     self.add(&tag, start, span);
                 }
-                Ok(Event::End(tag)) => self.close(tag.local_name().into_inner(), span),
-                Ok(Event::Text(_)) => {
-                    let value = self.source.text.get(start..end).unwrap_or_default();
-                    self.push(value.to_owned(), span);
+                Ok(Event::End(tag)) => self.close(local(tag.name().into_inner()), span),
+                Ok(Event::Text(_)) => self.push(start..end, None),
+                Ok(Event::CData(_)) => {
+                    self.push(start + "<![CDATA[".len()..end - "]]>".len(), None);
                 }
-                Ok(Event::CData(data)) => {
-                    let inner = self
-                        .source
-                        .span(start + "<![CDATA[".len(), end - "]]>".len());
-                    self.push(data.into_inner().into_owned(), inner);
+                Ok(Event::GeneralRef(reference)) => {
+                    let character = self.character(&reference, span);
+                    self.push(start..end, character);
                 }
-                Ok(Event::GeneralRef(reference)) => self.refer(&reference, span),
                 Ok(Event::DocType(text)) => {
                     if text.contains('[') || text.contains("<!ENTITY") {
                         self.diagnostics.push(
@@ -258,11 +294,11 @@ impl<'t> Growth<'t, '_> {
                 Ok(Event::Eof) => return self.end(end),
                 Ok(_) => {}
                 Err(error) => {
-                    let at = (reader.error_position() as usize).min(self.source.text.len());
+                    let at = (reader.error_position() as usize).min(source.text.len());
                     self.wrong(&error, at);
                     let lasting = !matches!(error, Error::IllFormed(_)) || end <= start;
                     if lasting {
-                        return self.close_all(self.source.text.len());
+                        return self.close_all(source.text.len());
                     }
                 }
             }
@@ -271,15 +307,44 @@ impl<'t> Growth<'t, '_> {
 
     /// Adds an element inside the innermost open one.
     fn add(&mut self, tag: &BytesStart<'_>, start: usize, span: Span) -> usize {
-        let length = tag.name().into_inner().len();
-        let qualified = self.source.text.get(start + 1..start + 1 + length);
-        let mut attributes = Vec::new();
+        let name = start + 1..start + 1 + tag.name().into_inner().len();
+        let first = self.document.attributes.len();
+        self.attributes(tag, name.end, span);
+        let own = &self.document.attributes[first..];
+        self.diagnostics.extend(repeated(self.document.source, own));
+        let document = &mut self.document;
+        let at = document.elements.len();
+        let pieces = narrow(document.pieces.len());
+        document.elements.push(Element {
+            name: local(document.source.text.get(name).unwrap_or_default()),
+            span,
+            attributes: narrow(first)..narrow(document.attributes.len()),
+            pieces: pieces..pieces,
+            after: narrow(at + 1),
+        });
+        at
+    }
+
+    /// Adds the attributes of `tag`, which follow its name.
+    fn attributes(&mut self, tag: &BytesStart<'_>, start: usize, span: Span) {
+        let first = self.document.attributes.len();
+        let offset = start - tag.name().into_inner().len();
+        let after_name = start..offset + tag.len();
+        let text = self.document.source.text;
+        if attributes(text, after_name, &mut self.document.attributes).is_ok() {
+            return;
+        }
+        // The XML reader knows what is wrong, and how to go on.
+        self.document.attributes.truncate(first);
         // The library compares every attribute with every other, which would
         // cost a square.
         for attribute in tag.attributes().with_checks(false) {
             match attribute {
                 Ok(attribute) => {
-                    attributes.extend(self.attribute(attribute.key.into_inner(), &attribute.value))
+                    let name = attribute.key.into_inner();
+                    self.document
+                        .attributes
+                        .extend(self.place(name, &attribute.value));
                 }
                 Err(_) => self.diagnostics.push(
                     Diagnostic::new(
@@ -291,73 +356,35 @@ impl<'t> Growth<'t, '_> {
                 ),
             }
         }
-        if may_repeat(&attributes) {
-            self.report_repeated(tag);
-        }
-        let at = self.nodes.len();
-        self.nodes.push(Node {
-            name: local(qualified.unwrap_or_default()),
-            attributes,
-            content: Vec::new(),
-            span,
+    }
+
+    /// The attribute whose name and value are parts of the text.
+    fn place(&self, name: &str, value: &str) -> Option<Attribute> {
+        let text = self.document.source.text;
+        let range = |part: &str| {
+            let start = (part.as_ptr() as usize).checked_sub(text.as_ptr() as usize)?;
+            Some(start..start + part.len())
+        };
+        Some(Attribute::new(range(name)?, range(value)?))
+    }
+
+    fn push(&mut self, range: Range<usize>, entity: Option<char>) {
+        self.document.pieces.push(Piece {
+            start: narrow(range.start),
+            end: narrow(range.end),
+            entity,
         });
-        self.hold(Content::Tag(at));
-        at
     }
 
-    /// Reports the first attribute whose name, prefix and all, an earlier one
-    /// bears.
-    fn report_repeated(&mut self, tag: &BytesStart<'_>) {
-        let mut seen = HashSet::new();
-        let mut attributes = tag.attributes();
-        let mut attributes = attributes.with_checks(false).flatten();
-        let Some(repeated) = attributes.find(|it| !seen.insert(it.key.into_inner())) else {
-            return;
-        };
-        let key = repeated.key.into_inner();
-        if let Some((_, value)) = self.attribute(key, &repeated.value) {
-            let message = format!("the attribute `{key}` stands here twice");
-            self.diagnostics.push(
-                Diagnostic::new(codes::XML_SYNTAX, value.span, message)
-                    .help("remove one of them; the first counts"),
-            );
-        }
-    }
-
-    /// The attribute `key="value"`, both borrowed from the text.
-    fn attribute(&self, key: &str, value: &str) -> Option<(&'t str, Text)> {
-        let text = self.source.text;
-        let key_at = (key.as_ptr() as usize).checked_sub(text.as_ptr() as usize)?;
-        let value_at = (value.as_ptr() as usize).checked_sub(text.as_ptr() as usize)?;
-        let key = text.get(key_at..key_at + key.len())?;
-        let unescaped = match quick_xml::escape::unescape(value) {
-            Ok(unescaped) => unescaped.into_owned(),
-            Err(_) => value.to_owned(),
-        };
-        let value = Text {
-            value: unescaped,
-            span: self.source.span(value_at, value_at + value.len()),
-        };
-        Some((local(key), value))
-    }
-
-    fn push(&mut self, value: String, span: Span) {
-        self.hold(Content::Text(Text { value, span }));
-    }
-
-    fn hold(&mut self, content: Content) {
-        if let Some(node) = self.open.last().and_then(|at| self.nodes.get_mut(*at)) {
-            node.content.push(content);
-        }
-    }
-
-    fn refer(&mut self, reference: &BytesRef<'_>, span: Span) {
+    /// The character that `&amp;` or `&#38;` stands for.
+    fn character(&mut self, reference: &BytesRef<'_>, span: Span) -> Option<char> {
         let name = reference.clone().into_inner();
-        let value = match reference.resolve_char_ref() {
-            Ok(Some(character)) => Some(character.to_string()),
-            _ => quick_xml::escape::resolve_predefined_entity(&name).map(str::to_owned),
+        let character = match reference.resolve_char_ref() {
+            Ok(Some(character)) => Some(character),
+            _ => quick_xml::escape::resolve_predefined_entity(&name)
+                .and_then(|text| text.chars().next()),
         };
-        let Some(value) = value else {
+        if character.is_none() {
             self.diagnostics.push(
                 Diagnostic::new(
                     codes::XML_SYNTAX,
@@ -368,9 +395,18 @@ impl<'t> Growth<'t, '_> {
                     "write the character itself, or its number such as `&#233;`; it stays as it is",
                 ),
             );
-            return self.push(format!("&{name};"), span);
-        };
-        self.push(value, span);
+        }
+        character
+    }
+
+    /// Notes that all inside of an element has been read.
+    fn complete(&mut self, at: usize, span: Span) {
+        let document = &mut self.document;
+        let (after, pieces) = (document.elements.len(), document.pieces.len());
+        let element = &mut document.elements[at];
+        element.span = span;
+        element.after = narrow(after);
+        element.pieces.end = narrow(pieces);
     }
 
     /// Closes the innermost open element called `name`, and those inside it.
@@ -378,7 +414,7 @@ impl<'t> Growth<'t, '_> {
         let found = self
             .open
             .iter()
-            .rposition(|&at| at != 0 && self.nodes[at].name == name);
+            .rposition(|&at| at != 0 && self.document.elements[at].name == name);
         let Some(depth) = found else {
             self.diagnostics.push(
                 Diagnostic::new(
@@ -392,10 +428,13 @@ impl<'t> Growth<'t, '_> {
         };
         while self.open.len() > depth + 1 {
             let Some(at) = self.open.pop() else { return };
-            let node = &mut self.nodes[at];
-            let opened = node.span;
-            node.span = Span::new(opened.start as usize, span.start as usize);
-            let message = format!("`<{}>` is not closed before `</{name}>`", node.name);
+            let Element {
+                name: inner,
+                span: opened,
+                ..
+            } = self.document.elements[at];
+            self.complete(at, Span::new(opened.start as usize, span.start as usize));
+            let message = format!("`<{inner}>` is not closed before `</{name}>`");
             self.diagnostics.push(
                 Diagnostic::new(codes::XML_SYNTAX, opened, message)
                     .help("add its end tag")
@@ -403,33 +442,31 @@ impl<'t> Growth<'t, '_> {
             );
         }
         if let Some(at) = self.open.pop() {
-            let node = &mut self.nodes[at];
-            node.span = node.span.cover(span);
+            self.complete(at, self.document.elements[at].span.cover(span));
         }
     }
 
     fn end(&mut self, end: usize) {
         if let Some(&at) = self.open.last().filter(|at| **at != 0) {
-            let node = &self.nodes[at];
-            let here = self.source.span(end, end);
+            let element = &self.document.elements[at];
+            let here = self.document.source.span(end, end);
             self.diagnostics.push(
                 Diagnostic::new(
                     codes::CUT_SHORT,
                     here,
-                    format!("the file ends inside `<{}>`", node.name),
+                    format!("the file ends inside `<{}>`", element.name),
                 )
                 .help("copy or export it again; what was complete is read")
-                .related(node.span, "opened here"),
+                .related(element.span, "opened here"),
             );
         }
         self.close_all(end);
     }
 
     fn close_all(&mut self, end: usize) {
-        let end = self.source.span(end, end);
-        for at in self.open.drain(..) {
-            let node = &mut self.nodes[at];
-            node.span = node.span.cover(end);
+        let end = self.document.source.span(end, end);
+        while let Some(at) = self.open.pop() {
+            self.complete(at, self.document.elements[at].span.cover(end));
         }
     }
 
@@ -443,8 +480,8 @@ impl<'t> Growth<'t, '_> {
     }
 
     fn wrong(&mut self, error: &Error, at: usize) {
-        let more_follows = self
-            .source
+        let source = self.document.source;
+        let more_follows = source
             .text
             .get(at + 1..)
             .is_some_and(|rest| rest.contains('<'));
@@ -466,24 +503,19 @@ impl<'t> Growth<'t, '_> {
                 "mend it, or export the file again",
             )
         };
-        let span = self.source.span(at, at);
+        let span = source.span(at, at);
         self.diagnostics
             .push(Diagnostic::new(code, span, message).help(help));
     }
 }
 
-/// Whether two attributes may bear one name. Nearly all tags have few of them,
-/// and comparing these costs less than hashing.
-fn may_repeat(attributes: &[(&str, Text)]) -> bool {
-    const FEW: usize = 16;
-    let is_known = |(at, (name, _)): (usize, &(&str, Text))| {
-        let mut before = attributes.iter().take(at);
-        before.any(|(other, _)| other == name)
-    };
-    attributes.len() > FEW || attributes.iter().enumerate().any(is_known)
-}
-
 /// A qualified name without its prefix.
 fn local(name: &str) -> &str {
-    name.rsplit(':').next().unwrap_or(name)
+    name.get(prefix_length(name)..).unwrap_or_default()
+}
+
+/// Whether `wanted` is what stands after the prefix of `name`.
+fn has_local_name(name: &str, wanted: &str) -> bool {
+    name.strip_suffix(wanted)
+        .is_some_and(|prefix| prefix.is_empty() || prefix.ends_with(':'))
 }

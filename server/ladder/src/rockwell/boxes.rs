@@ -16,7 +16,7 @@ impl Drawing<'_, '_, '_> {
     pub(super) fn known_block(
         &mut self,
         it: &Instruction,
-        mnemonic: String,
+        mnemonic: &str,
         slots: &[Slot],
         power: Power,
     ) -> ElementKind {
@@ -72,7 +72,7 @@ impl Drawing<'_, '_, '_> {
             operand.is_some() && !operand::is_constant(text) && operand::path(text).is_none();
         pins.push(pin(Some(name.into()), direction, operand));
         if is_expression {
-            let tokens = operand::tokens(self.place.text.text(), range.clone());
+            let tokens = self.tokens(range);
             for tag in self.tags(&tokens) {
                 pins.push(pin(Some(name.into()), direction, Some(tag)));
             }
@@ -121,7 +121,7 @@ impl Drawing<'_, '_, '_> {
         })
     }
 
-    pub(super) fn unknown_block(&mut self, it: &Instruction, mnemonic: String) -> ElementKind {
+    pub(super) fn unknown_block(&mut self, it: &Instruction, mnemonic: &str) -> ElementKind {
         if self.unknown.insert(mnemonic.to_lowercase()) {
             let message = format!(
                 "`{mnemonic}` is no instruction that is known, and the file does not define it"

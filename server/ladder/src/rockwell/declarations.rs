@@ -1,10 +1,12 @@
 //! What a project declares, under the names that its rungs use.
 
-use std::collections::HashMap;
+use std::borrow::Cow;
+use std::collections::hash_map::Entry;
 
+use foldhash::HashMap;
 use source::{Diagnostic, codes};
 
-use super::names::{Names, Scope};
+use super::names::{Names, Scope, lower};
 use super::operand;
 use super::project::{Project, Tag};
 use crate::{Class, Declaration, Declarations};
@@ -17,18 +19,19 @@ pub(super) fn declarations(
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Declarations {
     let mut declarations = Declarations::default();
-    let mut seen: HashMap<(Scope, String), &Tag> = HashMap::new();
+    let mut seen: HashMap<(Scope, Cow<'_, str>), &Tag> = HashMap::default();
     for (scope, tag) in all_tags(project) {
-        if let Some(first) = seen.get(&(scope, tag.name.to_lowercase())) {
+        let entry = seen.entry((scope, lower(&tag.name)));
+        if let Entry::Occupied(first) = &entry {
             let message = format!("the tag `{}` is declared twice in its scope", tag.name);
             diagnostics.push(
                 Diagnostic::new(codes::DECLARED_TWICE, tag.span, message)
-                    .related(first.span, "first declared here")
+                    .related(first.get().span, "first declared here")
                     .help("rename or remove one of the two; the first counts"),
             );
             continue;
         }
-        seen.insert((scope, tag.name.to_lowercase()), tag);
+        entry.or_insert(tag);
         let name = names.of_declaration(scope, &tag.name);
         let mut declaration = Declaration::new(name, class(names, scope, tag), tag.span);
         declaration.address = tag.alias_for.as_deref().map(Into::into);

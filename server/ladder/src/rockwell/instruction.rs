@@ -12,6 +12,7 @@ use source::{Diagnostic, codes};
 
 use super::boxes::pin;
 use super::catalogue::{self, Meaning, Power, Slot, SlotKind};
+use super::names::lower;
 use super::neutral::Instruction;
 use super::operand;
 use super::rung::Drawing;
@@ -26,15 +27,15 @@ impl Drawing<'_, '_, '_> {
     /// Adds an instruction in series after `sources`; the answer is where power
     /// comes from after it.
     pub(super) fn instruction(&mut self, it: &Instruction, sources: Sources) -> Sources {
-        let mnemonic = self.text(&it.mnemonic).to_owned();
+        let mnemonic = self.text(&it.mnemonic);
         let surroundings = self.surroundings;
-        if let Some(definition) = surroundings.definitions.get(&mnemonic.to_lowercase()) {
+        if let Some(definition) = surroundings.definitions.get(&*lower(mnemonic)) {
             let block = self.defined_block(it, mnemonic.into(), definition);
-            return self.add(&sources, block, it.place.clone());
+            return self.add(sources, block, it.place.clone());
         }
-        let Some(meaning) = catalogue::meaning(&mnemonic) else {
+        let Some(meaning) = catalogue::meaning(mnemonic) else {
             let block = self.unknown_block(it, mnemonic);
-            return self.add(&sources, block, it.place.clone());
+            return self.add(sources, block, it.place.clone());
         };
         let kind = match meaning {
             Meaning::Contact(kind) => ElementKind::Contact(Contact {
@@ -74,7 +75,7 @@ impl Drawing<'_, '_, '_> {
             Meaning::Loop => return self.repeated_call(it, mnemonic, sources),
             Meaning::Return => return self.leave(it, mnemonic, sources),
         };
-        self.add(&sources, kind, it.place.clone())
+        self.add(sources, kind, it.place.clone())
     }
 
     /// An operand that is a word, not a variable: a label or a routine.
@@ -139,7 +140,7 @@ impl Drawing<'_, '_, '_> {
 
     /// `LIM(low,test,high)`. Limits in order mean between them, limits the other
     /// way round mean outside, both included.
-    fn limit(&mut self, it: &Instruction, mnemonic: String, sources: Sources) -> Sources {
+    fn limit(&mut self, it: &Instruction, mnemonic: &str, sources: Sources) -> Sources {
         let limits = [0, 2].map(|place| {
             let range = it.operands.get(place)?;
             operand::integer(self.text(range))
@@ -147,7 +148,7 @@ impl Drawing<'_, '_, '_> {
         let [Some(low), Some(high)] = limits else {
             let slots = &[input("Low Limit"), input("Test"), input("High Limit")];
             let block = self.known_block(it, mnemonic, slots, Power::Shapes);
-            return self.add(&sources, block, it.place.clone());
+            return self.add(sources, block, it.place.clone());
         };
         let test = self.operand(it, 1);
         let above = ElementKind::Comparison(Comparison {
@@ -161,11 +162,11 @@ impl Drawing<'_, '_, '_> {
             right: self.operand(it, 2),
         });
         if low <= high {
-            let after_low = self.add(&sources, above, it.place.clone());
-            return self.add(&after_low, below, it.place.clone());
+            let after_low = self.add(sources, above, it.place.clone());
+            return self.add(after_low, below, it.place.clone());
         }
-        let mut ends = self.add(&sources, above, it.place.clone());
-        ends.extend(self.add(&sources, below, it.place.clone()));
+        let mut ends = self.add(sources.clone(), above, it.place.clone());
+        ends.extend(self.add(sources, below, it.place.clone()));
         ends
     }
 
@@ -177,13 +178,13 @@ impl Drawing<'_, '_, '_> {
             operand: self.operand(it, 1),
             kind: CoilKind::Plain,
         });
-        let after_shot = self.add(&sources, shot, it.place.clone());
-        self.add(&after_shot, coil, it.place.clone());
+        let after_shot = self.add(sources.clone(), shot, it.place.clone());
+        self.add(after_shot, coil, it.place.clone());
         sources
     }
 
     /// `JSR(routine,n,n inputs,returns)`.
-    fn call(&mut self, it: &Instruction, mnemonic: String, sources: Sources) -> Sources {
+    fn call(&mut self, it: &Instruction, mnemonic: &str, sources: Sources) -> Sources {
         let routine = self.routine(it);
         let inputs = it
             .operands
@@ -195,7 +196,7 @@ impl Drawing<'_, '_, '_> {
         let arguments = self.operands_at(it.operands.get(2..after_inputs));
         let returns = self.operands_at(it.operands.get(after_inputs..));
         let call = ElementKind::Call(Call { routine, arguments });
-        let mut sources = self.add(&sources, call, it.place.clone());
+        let mut sources = self.add(sources, call, it.place.clone());
         let text: Name = self.text(&it.place).into();
         for target in returns {
             let write = ElementKind::Assign(Assignment {
@@ -204,15 +205,15 @@ impl Drawing<'_, '_, '_> {
                     text: text.clone(),
                     reads: Vec::new(),
                 },
-                mnemonic: mnemonic.as_str().into(),
+                mnemonic: mnemonic.into(),
             });
-            sources = self.add(&sources, write, it.place.clone());
+            sources = self.add(sources, write, it.place.clone());
         }
         sources
     }
 
     /// `FOR(routine,index,from,to,step)`.
-    fn repeated_call(&mut self, it: &Instruction, mnemonic: String, sources: Sources) -> Sources {
+    fn repeated_call(&mut self, it: &Instruction, mnemonic: &str, sources: Sources) -> Sources {
         let slots = &[
             Slot {
                 name: "Routine Name",
@@ -227,23 +228,19 @@ impl Drawing<'_, '_, '_> {
             input("Step Size"),
         ];
         let block = self.known_block(it, mnemonic, slots, Power::Passes);
-        let sources = self.add(&sources, block, it.place.clone());
+        let sources = self.add(sources, block, it.place.clone());
         let call = ElementKind::Call(Call {
             routine: self.routine(it),
             arguments: Vec::new(),
         });
-        self.add(&sources, call, it.place.clone())
+        self.add(sources, call, it.place.clone())
     }
 
     /// The routine that a call names; one that the file lacks is reported.
     fn routine(&mut self, it: &Instruction) -> Operand {
         let mut routine = self.word(it, 0);
-        let known = self.place.routines.iter();
-        let found = known
-            .clone()
-            .find(|known| known.to_lowercase() == routine.name.to_lowercase());
-        match found {
-            Some(name) => routine.name = name.as_str().into(),
+        match self.place.routines.get(&lower(&routine.name)) {
+            Some(&name) => routine.name = name.into(),
             None => {
                 let message = format!("the routine `{}` is not in the file", routine.name);
                 self.diagnostics.push(
@@ -258,7 +255,7 @@ impl Drawing<'_, '_, '_> {
     /// `RET(values)` and `TND()`. Both leave the routine that they stand in: the
     /// reference says so of `TND` too, which ends a program's scan only where it
     /// stands in a main routine.
-    fn leave(&mut self, it: &Instruction, mnemonic: String, sources: Sources) -> Sources {
+    fn leave(&mut self, it: &Instruction, mnemonic: &str, sources: Sources) -> Sources {
         let mut sources = sources;
         if !it.operands.is_empty() {
             let pins = self
@@ -273,10 +270,10 @@ impl Drawing<'_, '_, '_> {
                 familiarity: Familiarity::Known,
                 shapes_power: false,
             });
-            sources = self.add(&sources, values, it.place.clone());
+            sources = self.add(sources, values, it.place.clone());
         }
         let leave = ElementKind::Return { program: false };
-        self.add(&sources, leave, it.place.clone())
+        self.add(sources, leave, it.place.clone())
     }
 
     /// The operands at `ranges`, those left out that are empty.

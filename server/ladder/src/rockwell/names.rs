@@ -12,8 +12,9 @@
 //! case. A name that only one scope has stays bare; where several have it, the
 //! local ones are written `Scope.name`.
 
-use std::collections::HashMap;
+use std::borrow::Cow;
 
+use foldhash::HashMap;
 use logic::Name;
 use source::Span;
 
@@ -29,20 +30,26 @@ const DEEPEST: usize = 8;
 /// The names of a project.
 #[derive(Debug, Default)]
 pub(super) struct Names {
-    /// Names of the scopes.
-    scopes: Vec<String>,
+    scopes: Vec<ScopeNames>,
     /// By name in lower case, the first scope that bears it.
     scopes_by_name: HashMap<String, Scope>,
     roots: Vec<Root>,
-    places: HashMap<(Scope, String), usize>,
-    /// The key of an aliased address and the alias.
-    aliases: HashMap<String, usize>,
-    interned: HashMap<String, Name>,
-    /// By scope, every spelling that was noted and, once asked for, its
-    /// canonical name: a program writes few names very often.
-    spellings: HashMap<Scope, HashMap<String, Option<Name>>>,
+    /// Whether some alias stands for an address or a part of a tag.
+    aliased: bool,
     /// Every variable by its name, with the key and place of its first use.
     first_uses: Vec<FirstUse>,
+}
+
+/// The names within a scope.
+#[derive(Debug, Default)]
+struct ScopeNames {
+    /// The scope's own name.
+    name: String,
+    /// The roots by their names in lower case.
+    places: HashMap<String, usize>,
+    /// Every spelling that was noted and, once asked for, its canonical name:
+    /// a program writes few names very often.
+    spellings: HashMap<String, Option<Name>>,
 }
 
 /// A variable where it is first used.
@@ -56,23 +63,32 @@ pub(super) struct FirstUse {
 #[derive(Debug)]
 struct Root {
     scope: Scope,
-    spelling: String,
+    spelling: Name,
     /// As operands give it; set by `settle`.
-    display: String,
+    display: Name,
     alias_for: Option<String>,
     declared: bool,
+    /// The aliases that stand for it or a part of it, by the tail's key.
+    aliases: HashMap<String, usize>,
+    /// The canonical names of it and its parts, by the tail's key.
+    used: HashMap<String, Name>,
 }
 
-/// A path with its aliases followed: the root and the parts after it.
+/// A path with its aliases followed: the root and what comes after it.
 struct Located {
     root: usize,
-    parts: Vec<LocatedPart>,
+    tail: Tail,
 }
 
-/// A part of a path, to compare and to show.
-struct LocatedPart {
-    key: String,
+/// What comes after the root of a path. Most paths have nothing there.
+#[derive(Default)]
+struct Tail {
+    /// To show.
     shown: String,
+    /// To compare: in lower case.
+    key: String,
+    /// Where each of its parts ends, in the key and as shown.
+    ends: Vec<(usize, usize)>,
 }
 
 impl Names {
@@ -99,24 +115,35 @@ impl Names {
     }
 
     fn declare(&mut self, scope: Scope, tag: &Tag) {
-        let key = (scope, tag.name.to_lowercase());
-        if self.places.contains_key(&key) {
-            return;
+        if self.find_in(scope, &tag.name).is_none() {
+            let at = self.add_root(scope, &tag.name, tag.name.clone());
+            let root = &mut self.roots[at];
+            root.alias_for.clone_from(&tag.alias_for);
+            root.declared = true;
         }
-        self.places.insert(key, self.roots.len());
+    }
+
+    /// Adds the root that is found by `name`.
+    fn add_root(&mut self, scope: Scope, name: &str, spelling: Name) -> usize {
+        let at = self.roots.len();
+        let key = lower(name).into_owned();
+        self.scopes[scope].places.insert(key, at);
         self.roots.push(Root {
             scope,
-            spelling: tag.name.clone(),
-            display: tag.name.clone(),
-            alias_for: tag.alias_for.clone(),
-            declared: true,
+            display: spelling.clone(),
+            spelling,
+            alias_for: None,
+            declared: false,
+            aliases: HashMap::default(),
+            used: HashMap::default(),
         });
+        at
     }
 
     /// Learns the undeclared tags in `text`, an operand in `scope`. They count
     /// as the controller's.
     pub(super) fn note(&mut self, scope: Scope, text: &str) {
-        let noted = self.spellings.entry(scope).or_default();
+        let noted = &mut self.scopes[scope].spellings;
         if !noted.contains_key(text) {
             noted.insert(text.to_owned(), None);
             self.note_nested(scope, text, 0);
@@ -133,20 +160,12 @@ impl Names {
             };
             let owner = path.program.map_or(0, |name| self.scope_named_or_new(name));
             if self.find(scope, &path).is_none() {
-                let spelling = if path.root.to_lowercase().starts_with("s:") {
-                    path.root.to_uppercase()
+                let spelling = if lower(path.root).starts_with("s:") {
+                    path.root.to_uppercase().into()
                 } else {
-                    path.root.to_owned()
+                    path.root.into()
                 };
-                let key = (owner, path.root.to_lowercase());
-                self.places.insert(key, self.roots.len());
-                self.roots.push(Root {
-                    scope: owner,
-                    display: spelling.clone(),
-                    spelling,
-                    alias_for: None,
-                    declared: false,
-                });
+                self.add_root(owner, path.root, spelling);
             }
             for part in &path.tail {
                 if let (Part::Index(inside) | Part::Bit(inside), true) = (part, depth < DEEPEST) {
@@ -163,7 +182,10 @@ impl Names {
     /// Adds a scope. Of several with one name the first is found by it.
     fn add_scope(&mut self, name: &str) -> Scope {
         let scope = self.scopes.len();
-        self.scopes.push(name.to_owned());
+        self.scopes.push(ScopeNames {
+            name: name.to_owned(),
+            ..ScopeNames::default()
+        });
         let by_name = self.scopes_by_name.entry(name.to_ascii_lowercase());
         by_name.or_insert(scope);
         scope
@@ -178,58 +200,63 @@ impl Names {
     /// The root of a path written in `scope`: of the program that it names, else
     /// local, else the controller's.
     fn find(&self, scope: Scope, path: &operand::Path<'_>) -> Option<usize> {
+        let key = lower(path.root);
         match path.program {
-            Some(program) => self.find_in(self.scope_named(program)?, path.root),
+            Some(program) => self.find_key(self.scope_named(program)?, &key),
             None => self
-                .find_in(scope, path.root)
-                .or_else(|| self.find_in(0, path.root)),
+                .find_key(scope, &key)
+                .or_else(|| self.find_key(0, &key)),
         }
     }
 
     fn find_in(&self, scope: Scope, root: &str) -> Option<usize> {
-        self.places.get(&(scope, root.to_lowercase())).copied()
+        self.find_key(scope, &lower(root))
+    }
+
+    fn find_key(&self, scope: Scope, key: &str) -> Option<usize> {
+        self.scopes.get(scope)?.places.get(key).copied()
     }
 
     /// Decides on prefixes and aliases. From here on no root is added.
     pub(super) fn settle(&mut self) {
-        let mut scopes_with: HashMap<String, usize> = HashMap::new();
-        for root in &self.roots {
-            *scopes_with.entry(root.spelling.to_lowercase()).or_default() += 1;
+        let Self { scopes, roots, .. } = &mut *self;
+        let mut scopes_with: HashMap<&str, usize> = HashMap::default();
+        for key in scopes.iter().flat_map(|scope| scope.places.keys()) {
+            *scopes_with.entry(key).or_default() += 1;
         }
-        for root in &mut self.roots {
-            let ambiguous = scopes_with.get(&root.spelling.to_lowercase()) > Some(&1);
-            let Some(scope) = self.scopes.get(root.scope).filter(|_| root.scope > 0) else {
-                continue;
-            };
-            if ambiguous {
-                // A tag called like the scope would make `Scope.name` its member.
-                let taken = scopes_with.contains_key(&scope.to_lowercase());
-                let mark = if taken { "\\" } else { "" };
-                root.display = format!("{mark}{scope}.{}", root.spelling);
+        for scope in scopes.iter().skip(1) {
+            // A tag called like the scope would make `Scope.name` its member.
+            let taken = scopes_with.contains_key(&*lower(&scope.name));
+            let mark = if taken { "\\" } else { "" };
+            for (key, &at) in &scope.places {
+                if scopes_with.get(key.as_str()) > Some(&1) {
+                    let root = &mut roots[at];
+                    root.display = format!("{mark}{}.{}", scope.name, root.spelling).into();
+                }
             }
         }
         for place in 0..self.roots.len() {
             if self.roots[place].alias_for.is_none() {
                 continue;
             }
-            let located = self.follow_aliases(place, Vec::new());
+            let located = self.follow_aliases(place, Tail::default());
             if located.root != place {
-                let key = located.key(located.parts.len());
-                self.aliases.entry(key).or_insert(place);
+                let aliases = &mut self.roots[located.root].aliases;
+                aliases.entry(located.tail.key).or_insert(place);
+                self.aliased = true;
             }
         }
     }
 
     /// Whether some alias stands for an address or a part of a tag.
     pub(super) fn has_aliases(&self) -> bool {
-        !self.aliases.is_empty()
+        self.aliased
     }
 
     /// The canonical name of `text`, an operand in `scope`. A constant keeps its
     /// notation; in an expression the tags are made canonical.
     pub(super) fn canonical(&mut self, scope: Scope, text: &str, span: Span) -> Name {
-        let known = self.spellings.get(&scope).and_then(|known| known.get(text));
-        if let Some(Some(name)) = known {
+        if let Some(Some(name)) = self.scopes[scope].spellings.get(text) {
             return name.clone();
         }
         let trimmed = text.trim();
@@ -241,8 +268,13 @@ impl Names {
                 None => self.canonical_expression(scope, trimmed, span).into(),
             }
         };
-        let known = self.spellings.entry(scope).or_default();
-        known.insert(text.to_owned(), Some(name.clone()));
+        let known = &mut self.scopes[scope].spellings;
+        match known.get_mut(text) {
+            Some(noted) => *noted = Some(name.clone()),
+            None => {
+                known.insert(text.to_owned(), Some(name.clone()));
+            }
+        }
         name
     }
 
@@ -256,15 +288,16 @@ impl Names {
         let Some(located) = self.locate(scope, path, 0) else {
             return text.into();
         };
-        let key = located.key(located.parts.len());
-        if let Some(name) = self.interned.get(&key) {
+        let Located { root, tail } = &located;
+        if let Some(name) = self.roots[*root].used.get(&tail.key) {
             return name.clone();
         }
-        let name: Name = self.shown(&located).into();
-        self.interned.insert(key, name.clone());
+        let name = self.shown(&located);
+        let Located { root, tail } = located;
+        self.roots[root].used.insert(tail.key, name.clone());
         self.first_uses.push(FirstUse {
             name: name.clone(),
-            root: located.root,
+            root,
             span,
         });
         name
@@ -272,26 +305,19 @@ impl Names {
 
     fn locate(&self, scope: Scope, path: &operand::Path<'_>, depth: usize) -> Option<Located> {
         let root = self.find(scope, path)?;
-        let parts = path
-            .tail
-            .iter()
-            .map(|part| self.locate_part(scope, part, depth))
-            .collect();
-        Some(self.follow_aliases(root, parts))
+        let mut tail = Tail::default();
+        for part in &path.tail {
+            self.locate_part(scope, part, depth, &mut tail);
+        }
+        Some(self.follow_aliases(root, tail))
     }
 
-    fn locate_part(&self, scope: Scope, part: &Part<'_>, depth: usize) -> LocatedPart {
-        let shown = match part {
-            Part::Member(member) => match member.parse::<u32>() {
-                Ok(bit) => format!(".{bit}"),
-                Err(_) => format!(".{member}"),
-            },
-            Part::Index(inside) => format!("[{}]", self.index(scope, inside, depth)),
-            Part::Bit(inside) => format!(".[{}]", self.index(scope, inside, depth)),
-        };
-        LocatedPart {
-            key: shown.to_lowercase(),
-            shown,
+    /// Adds a part of a path to what is before it.
+    fn locate_part(&self, scope: Scope, part: &Part<'_>, depth: usize, tail: &mut Tail) {
+        match part {
+            Part::Member(member) => tail.push(&[".", &plain_number(member)]),
+            Part::Index(inside) => tail.push(&["[", &self.index(scope, inside, depth), "]"]),
+            Part::Bit(inside) => tail.push(&[".[", &self.index(scope, inside, depth), "]"]),
         }
     }
 
@@ -304,17 +330,20 @@ impl Names {
                 Token::Tag(_) if depth < DEEPEST => operand::path(piece)
                     .and_then(|path| self.locate(scope, &path, depth + 1))
                     .map(|located| self.shown(&located)),
-                Token::Constant(_) => piece.parse::<u32>().ok().map(|number| number.to_string()),
                 _ => None,
             };
-            shown.push_str(tag.as_deref().unwrap_or(piece));
+            match (tag, token) {
+                (Some(tag), _) => shown.push_str(&tag),
+                (None, Token::Constant(_)) => shown.push_str(&plain_number(piece)),
+                (None, _) => shown.push_str(piece),
+            }
         }
         shown
     }
 
     /// Puts what an alias stands for in its place, again and again.
-    fn follow_aliases(&self, root: usize, parts: Vec<LocatedPart>) -> Located {
-        let mut located = Located { root, parts };
+    fn follow_aliases(&self, root: usize, tail: Tail) -> Located {
+        let mut located = Located { root, tail };
         for _ in 0..DEEPEST {
             let at = &self.roots[located.root];
             let Some(target) = at.alias_for.as_deref().and_then(operand::path) else {
@@ -329,34 +358,37 @@ impl Names {
             let Some(next) = next else {
                 break;
             };
-            let mut parts: Vec<LocatedPart> = target
-                .tail
-                .iter()
-                .map(|part| self.locate_part(at.scope, part, DEEPEST))
-                .collect();
-            parts.append(&mut located.parts);
-            located = Located { root: next, parts };
+            let mut tail = Tail::default();
+            for part in &target.tail {
+                self.locate_part(at.scope, part, DEEPEST, &mut tail);
+            }
+            tail.append(&located.tail);
+            located = Located { root: next, tail };
         }
         located
     }
 
     /// The name of a located variable: the alias that stands for the longest
     /// part of its path, and the rest.
-    fn shown(&self, located: &Located) -> String {
-        let mut key = located.root.to_string();
-        let mut best = self.aliases.get(&key).map(|&alias| (alias, 0));
-        for (count, part) in located.parts.iter().enumerate() {
-            key.push_str(&part.key);
-            if let Some(&alias) = self.aliases.get(&key) {
-                best = Some((alias, count + 1));
+    fn shown(&self, located: &Located) -> Name {
+        let Located { root, tail } = located;
+        let aliases = &self.roots[*root].aliases;
+        let mut best = aliases.get("").map(|&alias| (alias, 0));
+        if !aliases.is_empty() {
+            for &(key_end, shown_end) in &tail.ends {
+                let key = tail.key.get(..key_end).unwrap_or_default();
+                if let Some(&alias) = aliases.get(key) {
+                    best = Some((alias, shown_end));
+                }
             }
         }
-        let (root, skipped) = best.unwrap_or((located.root, 0));
-        let mut shown = self.roots[root].display.clone();
-        for part in located.parts.iter().skip(skipped) {
-            shown.push_str(&part.shown);
+        let (root, skipped) = best.unwrap_or((*root, 0));
+        let rest = tail.shown.get(skipped..).unwrap_or_default();
+        let display = &self.roots[root].display;
+        match rest {
+            "" => display.clone(),
+            rest => format!("{display}{rest}").into(),
         }
-        shown
     }
 
     /// An expression in one notation: operators between blanks, tags canonical.
@@ -405,33 +437,39 @@ impl Names {
     pub(super) fn place_of(&self, scope: Scope, text: &str) -> Option<(Scope, String, String)> {
         let located = self.locate(scope, &operand::path(text.trim())?, 0)?;
         let root = &self.roots[located.root];
-        let tail = located.parts.iter().map(|part| part.key.as_str()).collect();
-        Some((root.scope, root.spelling.to_lowercase(), tail))
+        let tag = lower(&root.spelling).into_owned();
+        Some((root.scope, tag, located.tail.key))
     }
 
     /// The name under which a tag of `scope` is used, as far as it is known
     /// from its declaration.
     pub(super) fn of_declaration(&self, scope: Scope, tag: &str) -> Name {
         match self.find_in(scope, tag) {
-            Some(root) => self.roots[root].display.as_str().into(),
+            Some(root) => self.roots[root].display.clone(),
             None => tag.into(),
         }
     }
 
     /// The name of a part of a tag, if some operand uses it.
     pub(super) fn used_part(&self, scope: Scope, tag: &str, part: &str) -> Option<Name> {
+        // Projects comment far more parts than their rungs use.
+        let root = &self.roots[self.find_in(scope, tag)?];
+        if root.alias_for.is_none() && is_plain_tail(part) {
+            return root.used.get(&*lower(part)).cloned();
+        }
         let text = format!("{tag}{part}");
         let located = self.locate(scope, &operand::path(&text)?, 0)?;
-        self.interned
-            .get(&located.key(located.parts.len()))
+        self.roots[located.root]
+            .used
+            .get(&located.tail.key)
             .cloned()
     }
 
     /// The address that the alias `tag` of `scope` leads to in the end.
     pub(super) fn aliased_root(&self, scope: Scope, tag: &str) -> Option<&str> {
         let root = self.find_in(scope, tag)?;
-        let located = self.follow_aliases(root, Vec::new());
-        Some(self.roots[located.root].spelling.as_str())
+        let located = self.follow_aliases(root, Tail::default());
+        Some(&*self.roots[located.root].spelling)
     }
 
     /// The root of a module's tag that nothing declares: `Local:1:I`.
@@ -449,13 +487,58 @@ impl Names {
     }
 }
 
-impl Located {
-    /// What the root and its first `count` parts are compared by.
-    fn key(&self, count: usize) -> String {
-        let mut key = self.root.to_string();
-        for part in self.parts.iter().take(count) {
-            key.push_str(&part.key);
+impl Tail {
+    /// Adds a part, itself written in pieces.
+    fn push(&mut self, pieces: &[&str]) {
+        for piece in pieces {
+            self.shown.push_str(piece);
+            self.key.push_str(&lower(piece));
         }
-        key
+        self.ends.push((self.key.len(), self.shown.len()));
+    }
+
+    /// Adds the parts of another.
+    fn append(&mut self, other: &Self) {
+        let (key, shown) = (self.key.len(), self.shown.len());
+        self.key.push_str(&other.key);
+        self.shown.push_str(&other.shown);
+        let ends = other.ends.iter();
+        self.ends
+            .extend(ends.map(|end| (key + end.0, shown + end.1)));
+    }
+}
+
+/// A name without its case, by which names are compared.
+pub(super) fn lower(name: &str) -> Cow<'_, str> {
+    if name
+        .bytes()
+        .any(|byte| byte.is_ascii_uppercase() || !byte.is_ascii())
+    {
+        Cow::Owned(name.to_lowercase())
+    } else {
+        Cow::Borrowed(name)
+    }
+}
+
+/// Whether a path's tail is shown and compared as it is written: of members
+/// and constant indices, no number with zeros before it.
+fn is_plain_tail(tail: &str) -> bool {
+    let is_plain = |part: &str| {
+        let (name, allowed): (_, fn(&u8) -> bool) = match part.strip_suffix(']') {
+            Some(index) => (index, u8::is_ascii_digit),
+            None => (part, |byte| byte.is_ascii_alphanumeric() || *byte == b'_'),
+        };
+        name.as_bytes().iter().all(allowed) && (name == "0" || !name.starts_with('0'))
+    };
+    tail.starts_with(['.', '[']) && tail.split(['.', '[']).all(is_plain)
+}
+
+/// A whole number without the zeros before it; anything else as it is.
+fn plain_number(text: &str) -> Cow<'_, str> {
+    match text.parse::<u32>() {
+        Ok(number) if text.len() > 1 && text.starts_with(['0', '+']) => {
+            Cow::Owned(number.to_string())
+        }
+        _ => Cow::Borrowed(text),
     }
 }

@@ -386,10 +386,14 @@ pub(super) fn starts_name(character: char) -> bool {
 /// The end of the name that begins at byte `start`.
 pub(super) fn name_end(text: &str, start: usize) -> usize {
     let rest = text.get(start..).unwrap_or_default();
-    let is_plain = |byte: &u8| byte.is_ascii_alphanumeric() || *byte == b'_';
-    let plain = rest.bytes().take_while(|byte| is_plain(byte)).count();
+    let is_plain = |byte: u8| byte.is_ascii_alphanumeric() || byte == b'_';
+    let plain = rest.bytes().position(|byte| !is_plain(byte));
+    let plain = plain.unwrap_or(rest.len());
     // Most names end here. Those with letters beyond ASCII go on.
     let rest = rest.get(plain..).unwrap_or_default();
+    if rest.as_bytes().first().is_none_or(u8::is_ascii) {
+        return start + plain;
+    }
     let length = rest.find(|c: char| !(c.is_alphanumeric() || c == '_'));
     start + plain + length.unwrap_or(rest.len())
 }

@@ -5,6 +5,7 @@
 //! program's. Only its shape is read here; which variable it means depends on
 //! the scope, see [`names`](super::names).
 
+use std::borrow::Cow;
 use std::ops::Range;
 
 use super::neutral::{Quotes, name_end, quote_end, skip_blanks, starts_name};
@@ -138,7 +139,10 @@ fn bracket_end(text: &str, start: usize) -> Option<usize> {
 /// `2#1010_0000`, `3.0`. A word whose highest of 32 bits is set, written in a
 /// radix, is negative, as the controller takes it.
 pub(super) fn integer(text: &str) -> Option<i64> {
-    let plain: String = text.trim().chars().filter(|&c| c != '_').collect();
+    let plain = match text.contains('_') {
+        true => Cow::Owned(text.trim().replace('_', "")),
+        false => Cow::Borrowed(text.trim()),
+    };
     if let Some((radix, digits)) = plain.split_once('#') {
         let radix = radix
             .parse()
@@ -218,22 +222,19 @@ impl Token {
 }
 
 /// The pieces of an expression, `range` of `text`, blanks left out.
-pub(super) fn tokens(text: &str, range: Range<usize>) -> Vec<Token> {
-    let Some(text) = text.get(..range.end) else {
-        return Vec::new();
-    };
-    let mut tokens = Vec::new();
+pub(super) fn tokens(text: &str, range: Range<usize>) -> impl Iterator<Item = Token> {
+    let text = text.get(..range.end).unwrap_or_default();
     let mut quotes = Quotes::default();
     let mut at = skip_blanks(text, range.start);
-    while let Some(character) = text.get(at..).and_then(|rest| rest.chars().next()) {
+    std::iter::from_fn(move || {
+        let character = text.get(at..)?.chars().next()?;
         let token = match character {
             '\'' => Token::Constant(at..quotes.end(text, at)),
             _ => token(text, at, character),
         };
         at = skip_blanks(text, token.place().end);
-        tokens.push(token);
-    }
-    tokens
+        Some(token)
+    })
 }
 
 fn token(text: &str, at: usize, character: char) -> Token {
@@ -299,7 +300,6 @@ mod tests {
     fn expressions_fall_into_pieces() {
         let text = "(In_Raw-Cfg.Min[i])*-1.0e-3 AND SQR ( x ) <= 16#0F";
         let shown: Vec<&str> = tokens(text, 0..text.len())
-            .iter()
             .map(|token| &text[token.place()])
             .collect();
         assert_eq!(

@@ -5,17 +5,17 @@
 //! of solving: programs as the tasks schedule them, in each the main routine
 //! first; then the Add-On Instructions.
 
-use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 
+use foldhash::{HashMap, HashSet};
 use source::{Diagnostic, codes};
 
 use super::catalogue::{self, Meaning, SlotKind};
 use super::declarations::{all_tags, declarations};
-use super::names::{Names, Scope};
+use super::names::{Names, Scope, lower};
 use super::neutral::{self, Instruction, Item, Statement};
 use super::project::{Edits, Extent, Inhibition, Project, RungSource, Unit, UnitKind};
-use super::rung::{self, Definition, Place, Surroundings};
+use super::rung::{self, Callable, Definition, Place, Surroundings};
 use crate::reading::Reading;
 use crate::{Network, PinDirection, Program, Role, Routine, Rung};
 
@@ -23,6 +23,7 @@ use crate::{Network, PinDirection, Program, Role, Routine, Rung};
 struct Parsed<'p, 't> {
     unit: &'p Unit<'t>,
     scope: Scope,
+    callable: Callable<'p>,
     routines: Vec<Vec<ParsedRung<'p, 't>>>,
 }
 
@@ -100,9 +101,14 @@ fn parse<'p, 't>(
         }
         routines.push(rungs);
     }
+    let mut callable = Callable::default();
+    for name in &unit.routine_names {
+        callable.entry(lower(name)).or_insert(name);
+    }
     Parsed {
         unit,
         scope,
+        callable,
         routines,
     }
 }
@@ -142,7 +148,7 @@ impl Parsed<'_, '_> {
         // Only a program that names no main routine begins where no call leads.
         let called = match self.unit.kind {
             UnitKind::Program { main: None } => self.called(),
-            _ => HashSet::new(),
+            _ => HashSet::default(),
         };
         let mut routines = Vec::new();
         for (source, parsed) in self.unit.routines.iter().zip(&self.routines) {
@@ -174,7 +180,7 @@ impl Parsed<'_, '_> {
         let source = rung.source;
         let place = Place {
             scope: self.scope,
-            routines: &self.unit.routine_names,
+            routines: &self.callable,
             text: &source.text,
             span: source.span,
         };
@@ -199,7 +205,7 @@ impl Parsed<'_, '_> {
 
     /// The routines that some rung of the unit calls, in lower case.
     fn called(&self) -> HashSet<String> {
-        let mut called = HashSet::new();
+        let mut called = HashSet::default();
         self.each_instruction(&mut |text, instruction| {
             let mnemonic = text.get(instruction.mnemonic.clone()).unwrap_or_default();
             let calls = matches!(
@@ -241,7 +247,7 @@ fn in_order<'u, 'p, 't>(
     project: &Project<'_>,
     units: &'u [Parsed<'p, 't>],
 ) -> Vec<&'u Parsed<'p, 't>> {
-    let mut order: HashMap<String, usize> = HashMap::new();
+    let mut order: HashMap<String, usize> = HashMap::default();
     for name in project.schedule.iter().flatten() {
         let next = order.len();
         order.entry(name.to_lowercase()).or_insert(next);
@@ -341,36 +347,41 @@ fn writes_enable_out(parsed: &Parsed<'_, '_>) -> bool {
         };
         writes |= !writes
             && instruction.operands.iter().any(is_it)
-            && written(text, instruction).iter().any(is_it);
+            && written(text, instruction).any(|range| is_it(&range));
     });
     writes
 }
 
 /// The operands of an instruction that it writes, as far as the catalogue
 /// knows; all of them for one that it does not know.
-fn written(text: &str, instruction: &Instruction) -> Vec<Range<usize>> {
-    let operands = &instruction.operands;
+fn written<'i>(
+    text: &str,
+    instruction: &'i Instruction,
+) -> impl Iterator<Item = Range<usize>> + use<'i> {
     let mnemonic = text.get(instruction.mnemonic.clone()).unwrap_or_default();
-    let places: Vec<usize> = match catalogue::meaning(mnemonic) {
-        Some(Meaning::Coil(_) | Meaning::Compute | Meaning::Clear | Meaning::Reset) => vec![0],
-        Some(Meaning::Move | Meaning::Unary(_) | Meaning::EdgeOutput(_) | Meaning::Loop) => vec![1],
-        Some(Meaning::Binary(_)) => vec![2],
-        Some(Meaning::Box(slots, _)) => (0..slots.len())
-            .filter(|&place| {
-                matches!(
-                    slots.get(place).map(|slot| slot.kind),
-                    Some(
-                        SlotKind::Value(PinDirection::Output | PinDirection::InOut)
-                            | SlotKind::Array(PinDirection::Output | PinDirection::InOut)
-                    )
-                )
-            })
-            .collect(),
-        Some(Meaning::Call) | None => (0..operands.len()).collect(),
-        Some(_) => Vec::new(),
-    };
-    places
-        .into_iter()
-        .filter_map(|place| operands.get(place).cloned())
-        .collect()
+    let meaning = catalogue::meaning(mnemonic);
+    let operands = instruction.operands.iter().enumerate();
+    operands
+        .filter(move |(place, _)| writes(meaning, *place))
+        .map(|(_, range)| range.clone())
+}
+
+/// Whether an instruction of this meaning writes its operand at `place`.
+fn writes(meaning: Option<Meaning>, place: usize) -> bool {
+    match meaning {
+        Some(Meaning::Coil(_) | Meaning::Compute | Meaning::Clear | Meaning::Reset) => place == 0,
+        Some(Meaning::Move | Meaning::Unary(_) | Meaning::EdgeOutput(_) | Meaning::Loop) => {
+            place == 1
+        }
+        Some(Meaning::Binary(_)) => place == 2,
+        Some(Meaning::Box(slots, _)) => matches!(
+            slots.get(place).map(|slot| slot.kind),
+            Some(
+                SlotKind::Value(PinDirection::Output | PinDirection::InOut)
+                    | SlotKind::Array(PinDirection::Output | PinDirection::InOut)
+            )
+        ),
+        Some(Meaning::Call) | None => true,
+        Some(_) => false,
+    }
 }

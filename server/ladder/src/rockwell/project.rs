@@ -40,7 +40,7 @@ pub(super) enum Extent {
 /// A tag, an AOI's parameter or its local tag.
 #[derive(Clone, Debug)]
 pub(super) struct Tag {
-    pub(super) name: String,
+    pub(super) name: Name,
     pub(super) class: Class,
     pub(super) data_type: Option<Name>,
     pub(super) description: Option<Name>,
@@ -135,9 +135,9 @@ impl Project<'_> {
 
 impl Tag {
     /// A tag of which only the name is known.
-    pub(super) fn new(name: String, class: Class, span: Span) -> Self {
+    pub(super) fn new(name: impl Into<Name>, class: Class, span: Span) -> Self {
         Self {
-            name,
+            name: name.into(),
             class,
             data_type: None,
             description: None,

@@ -7,9 +7,10 @@
 //! is what `[,XIO(c)]` means, and the order of adding elements is Rockwell's
 //! order of solving: left to right, top leg first.
 
-use std::collections::{HashMap, HashSet};
+use std::borrow::Cow;
 use std::ops::Range;
 
+use foldhash::{HashMap, HashSet};
 use petgraph::graph::NodeIndex;
 use source::{Diagnostic, Span, codes};
 
@@ -45,12 +46,14 @@ pub(super) struct Definition {
     pub(super) shapes_power: bool,
 }
 
+/// Routines that a rung may call, by their names in lower case.
+pub(super) type Callable<'p> = HashMap<Cow<'p, str>, &'p str>;
+
 /// Where a rung stands.
 #[derive(Clone, Copy)]
 pub(super) struct Place<'p, 't> {
     pub(super) scope: Scope,
-    /// Routines that the rung may call.
-    pub(super) routines: &'p [String],
+    pub(super) routines: &'p Callable<'p>,
     pub(super) text: &'p Passage<'t>,
     /// The whole rung.
     pub(super) span: Span,
@@ -71,7 +74,7 @@ pub(super) fn network(
         surroundings,
         names,
         diagnostics,
-        unknown: HashSet::new(),
+        unknown: HashSet::default(),
     };
     drawing.series(&statement.items, vec![Network::rail()]);
     let Drawing {
@@ -122,14 +125,14 @@ pub(super) struct Drawing<'a, 'p, 't> {
     pub(super) unknown: HashSet<String>,
 }
 
-impl Drawing<'_, '_, '_> {
+impl<'p> Drawing<'_, 'p, '_> {
     fn series(&mut self, items: &[Item], mut sources: Vec<NodeIndex>) -> Vec<NodeIndex> {
         for item in items {
             sources = self.gather(sources);
             sources = match item {
                 Item::Instruction(instruction) => self.instruction(instruction, sources),
                 Item::Branch(branch) => self.branch(&branch.legs, &sources),
-                Item::Unreadable(range) => self.unreadable(range.clone(), &sources),
+                Item::Unreadable(range) => self.unreadable(range.clone(), sources),
             };
         }
         sources
@@ -137,7 +140,7 @@ impl Drawing<'_, '_, '_> {
 
     fn branch(&mut self, legs: &[Vec<Item>], sources: &[NodeIndex]) -> Vec<NodeIndex> {
         let mut ends = Vec::new();
-        let mut seen = HashSet::new();
+        let mut seen = HashSet::default();
         for leg in legs {
             let leg_ends = self.series(leg, sources.to_vec());
             ends.extend(leg_ends.into_iter().filter(|&end| seen.insert(end)));
@@ -157,7 +160,7 @@ impl Drawing<'_, '_, '_> {
     }
 
     /// Text that is no instruction stands for a box of unknown effect.
-    fn unreadable(&mut self, range: Range<usize>, sources: &[NodeIndex]) -> Vec<NodeIndex> {
+    fn unreadable(&mut self, range: Range<usize>, sources: Vec<NodeIndex>) -> Vec<NodeIndex> {
         let block = Block {
             name: self.text(&range).into(),
             instance: None,
@@ -171,16 +174,19 @@ impl Drawing<'_, '_, '_> {
     /// Adds an element in series.
     pub(super) fn add(
         &mut self,
-        sources: &[NodeIndex],
+        mut sources: Vec<NodeIndex>,
         kind: ElementKind,
         range: Range<usize>,
     ) -> Vec<NodeIndex> {
         let span = self.place.text.span(range);
-        vec![self.builder.add_after(sources, kind, span)]
+        let element = self.builder.add_after(&sources, kind, span);
+        sources.clear();
+        sources.push(element);
+        sources
     }
 
     /// The text at `range`.
-    pub(super) fn text(&self, range: &Range<usize>) -> &str {
+    pub(super) fn text(&self, range: &Range<usize>) -> &'p str {
         self.place
             .text
             .text()

@@ -16,9 +16,9 @@ use crate::{
 impl Drawing<'_, '_, '_> {
     /// `CMP(expression)`: a comparison where it compares two plain values, else
     /// a box that decides by what it reads.
-    pub(super) fn compare_expression(&mut self, it: &Instruction, mnemonic: String) -> ElementKind {
+    pub(super) fn compare_expression(&mut self, it: &Instruction, mnemonic: &str) -> ElementKind {
         let range = whole(&it.operands, 0);
-        let tokens = operand::tokens(self.place.text.text(), range);
+        let tokens = self.tokens(&range);
         if let Some((left, relation, right)) = self.plain_comparison(&tokens)
             && let (Some(left), Some(right)) = (self.operand_at(left), self.operand_at(right))
         {
@@ -63,6 +63,11 @@ impl Drawing<'_, '_, '_> {
         }
     }
 
+    /// The pieces of the expression at `range`.
+    pub(super) fn tokens(&self, range: &Range<usize>) -> Vec<Token> {
+        operand::tokens(self.place.text.text(), range.clone()).collect()
+    }
+
     /// The tags among the pieces of an expression.
     pub(super) fn tags(&mut self, tokens: &[Token]) -> Vec<Operand> {
         tokens
@@ -78,7 +83,7 @@ impl Drawing<'_, '_, '_> {
         &mut self,
         it: &Instruction,
         meaning: Meaning,
-        mnemonic: String,
+        mnemonic: &str,
     ) -> ElementKind {
         let (target, value) = match meaning {
             Meaning::Clear => (self.operand(it, 0), Value::Constant(0)),
@@ -115,7 +120,7 @@ impl Drawing<'_, '_, '_> {
 
     /// The value of the expression at `range`, written to `target`.
     fn computed(&mut self, range: Range<usize>, target: &Operand) -> Value {
-        let tokens = operand::tokens(self.place.text.text(), range.clone());
+        let tokens = self.tokens(&range);
         if let Some(place) = self.plain_value(&tokens) {
             if let Some(number) = operand::integer(self.text(&place)) {
                 return Value::Constant(number);
@@ -153,8 +158,8 @@ impl Drawing<'_, '_, '_> {
             }
             _ => {}
         }
-        let mut tokens = operand::tokens(self.place.text.text(), left.clone());
-        tokens.extend(operand::tokens(self.place.text.text(), right.clone()));
+        let mut tokens = self.tokens(&left);
+        tokens.extend(self.tokens(&right));
         let [left, right] = [left, right].map(|side| self.expression(&side));
         Value::Term {
             text: format!("{left} {sign} {right}").into(),
@@ -164,7 +169,7 @@ impl Drawing<'_, '_, '_> {
 
     fn function(&mut self, function: &str, argument: Option<Range<usize>>) -> Value {
         let range = argument.unwrap_or_default();
-        let tokens = operand::tokens(self.place.text.text(), range.clone());
+        let tokens = self.tokens(&range);
         Value::Term {
             text: format!("{function}({})", self.expression(&range)).into(),
             reads: self.tags(&tokens),

@@ -47,7 +47,7 @@ pub(super) fn parameters(
         };
         let required = attributes.get("required");
         if required.is_some_and(|value| value.eq_ignore_ascii_case("yes")) {
-            parameters.passed.push((tag.name.clone(), tag.class));
+            parameters.passed.push((tag.name.to_string(), tag.class));
         }
         parameters.tags.push(tag);
     }
@@ -67,7 +67,7 @@ fn tag(
         .get(name_place.clone())
         .filter(|name| !name.is_empty())?;
     let span = source.span(name_place.start, name_place.end);
-    let mut tag = Tag::new(name.to_owned(), class, span);
+    let mut tag = Tag::new(name, class, span);
     let mut at = skip_blanks(text, name_place.end);
     let rest = text.get(at..)?;
     let is_alias = rest

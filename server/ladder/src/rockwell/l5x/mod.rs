@@ -250,14 +250,15 @@ fn rung_text<'t>(rung: Element<'_, 't>) -> Passage<'t> {
 /// The text of an element without the blanks around it. A project in several
 /// languages has it once for each, and the first is taken.
 fn text(element: Element<'_, '_>) -> Option<logic::Name> {
-    let own = element.passage();
-    let localised = element.children().next().map(Element::passage);
-    [Some(own), localised]
-        .into_iter()
-        .flatten()
-        .map(|passage| passage.text().trim().replace("\r\n", "\n"))
-        .find(|text| !text.is_empty())
-        .map(Into::into)
+    let said = |element: Element<'_, '_>| -> Option<logic::Name> {
+        let passage = element.passage();
+        let text = passage.text().trim();
+        match text.contains('\r') {
+            true => Some(text.replace("\r\n", "\n").into()),
+            false => (!text.is_empty()).then(|| text.into()),
+        }
+    };
+    said(element).or_else(|| element.children().next().and_then(said))
 }
 
 fn protected(encoded: Element<'_, '_>) -> Diagnostic {

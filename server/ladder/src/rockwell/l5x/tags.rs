@@ -3,6 +3,7 @@
 use logic::Name;
 
 use super::super::data;
+use super::super::names::lower;
 use super::super::operand;
 use super::super::project::Tag;
 use super::super::xml::Element;
@@ -36,7 +37,11 @@ pub(super) fn passed(definition: Element<'_, '_>) -> Vec<(String, Class)> {
 }
 
 fn tag(element: Element<'_, '_>, class: Class) -> Tag {
-    let mut tag = Tag::new(name(element, "Name"), class, element.tag_span());
+    let mut tag = Tag::new(
+        element.attribute("Name").unwrap_or_default(),
+        class,
+        element.tag_span(),
+    );
     tag.data_type = data_type(element);
     tag.description = element.child("Description").and_then(text);
     tag.alias_for = element
@@ -48,20 +53,19 @@ fn tag(element: Element<'_, '_>, class: Class) -> Tag {
             tag.comments.push((part.into_owned(), text));
         }
     }
-    let (decorated, plain): (Vec<_>, Vec<_>) = ["Data", "DefaultData"]
-        .into_iter()
-        .flat_map(|kind| element.children_named(kind))
-        .partition(|data| data.attribute_is("Format", "Decorated"));
-    for data in decorated {
+    let data = || {
+        ["Data", "DefaultData"]
+            .into_iter()
+            .flat_map(|kind| element.children_named(kind))
+    };
+    for data in data().filter(|data| data.attribute_is("Format", "Decorated")) {
         let value = data.child("DataValue");
         tag.initial = value
             .and_then(|value| value.attribute("Value"))
             .map(Into::into);
         presets_inside(data, &mut Vec::new(), &mut tag.presets);
     }
-    let listed = plain
-        .into_iter()
-        .find(|data| data.attribute_is("Format", "L5K"));
+    let listed = data().find(|data| data.attribute_is("Format", "L5K"));
     if let Some(data) = listed {
         let passage = data.passage();
         let value = passage.text().trim();
@@ -98,12 +102,12 @@ fn presets_inside<'d, 't>(
     let mut holds_preset = None;
     path.push(element);
     for child in element.children() {
-        if child.name() != "DataValueMember" {
+        if !child.is_leaf() && child.name() != "DataValueMember" {
             presets_inside(child, path, presets);
             continue;
         }
         let holds_preset = *holds_preset.get_or_insert_with(|| is_timer_or_counter(element));
-        if holds_preset && child.attribute_is("Name", "PRE") {
+        if holds_preset && child.name() == "DataValueMember" && child.attribute_is("Name", "PRE") {
             let value = child.attribute("Value");
             let value = value.and_then(|value| operand::integer(&value));
             presets.extend(value.map(|value| (path_of(path), value)));
@@ -121,12 +125,19 @@ fn is_timer_or_counter(element: Element<'_, '_>) -> bool {
 /// The path within a tag that nested elements of data stand for: `.tmr[3]`, in
 /// lower case.
 fn path_of(elements: &[Element<'_, '_>]) -> String {
-    let parts = elements.iter().map(|element| match element.name() {
-        "StructureMember" | "ArrayMember" => format!(".{}", name(*element, "Name")),
-        "Element" => name(*element, "Index"),
-        _ => String::new(),
-    });
-    parts.collect::<String>().to_lowercase()
+    let mut path = String::new();
+    for element in elements {
+        let part = match element.name() {
+            "StructureMember" | "ArrayMember" => {
+                path.push('.');
+                element.attribute("Name")
+            }
+            "Element" => element.attribute("Index"),
+            _ => None,
+        };
+        path.push_str(&lower(&part.unwrap_or_default()));
+    }
+    path
 }
 
 fn class_of_tag(element: Element<'_, '_>) -> Class {
@@ -147,10 +158,13 @@ fn class_of_tag(element: Element<'_, '_>) -> Class {
 
 fn class_of_usage(element: Element<'_, '_>) -> Class {
     let usage = element.attribute("Usage").unwrap_or_default();
-    match usage.to_ascii_lowercase().as_str() {
-        "input" => Class::Input,
-        "output" => Class::Output,
-        "inout" => Class::InOut,
-        _ => Class::Unknown,
-    }
+    let classes = [
+        ("Input", Class::Input),
+        ("Output", Class::Output),
+        ("InOut", Class::InOut),
+    ];
+    let found = classes
+        .iter()
+        .find(|(word, _)| usage.eq_ignore_ascii_case(word));
+    found.map_or(Class::Unknown, |(_, class)| *class)
 }

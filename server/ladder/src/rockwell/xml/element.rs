@@ -2,7 +2,6 @@ use std::borrow::Cow;
 
 use source::Span;
 
-use super::attributes::Attributes;
 use super::{Document, Node, NodeKind, wide};
 use crate::rockwell::passage::Passage;
 
@@ -38,13 +37,16 @@ impl<'d, 't> Element<'d, 't> {
     /// The value of an attribute. Its name is compared without case: tools
     /// other than Rockwell's write `use` and `Datatype`.
     pub(crate) fn attribute(self, name: &str) -> Option<Cow<'t, str>> {
-        let NodeKind::Element { name_length, .. } = self.node().kind else {
+        let NodeKind::Element { attributes, .. } = self.node().kind else {
             return None;
         };
-        let tag = self.inner();
-        let (_, value) = Attributes::of(tag, name_length as usize)
-            .find(|(key, _)| key.eq_ignore_ascii_case(name))?;
-        let value = tag.get(value)?;
+        let text = self.document.source.text;
+        let own = attributes.0 as usize..attributes.1 as usize;
+        let mut own = self.document.attributes.get(own)?.iter();
+        let found = own.find(|own| {
+            own.name_length() == name.len() && own.name(text).eq_ignore_ascii_case(name)
+        })?;
+        let value = text.get(found.value())?;
         Some(quick_xml::escape::unescape(value).unwrap_or(Cow::Borrowed(value)))
     }
 
@@ -60,6 +62,11 @@ impl<'d, 't> Element<'d, 't> {
         self.inside()
             .filter(|&at| document.nodes[at].is_element())
             .map(move |at| Element { document, at })
+    }
+
+    /// Whether nothing but blanks is inside.
+    pub(crate) fn is_leaf(self) -> bool {
+        self.node().first_child.is_none()
     }
 
     /// The elements directly inside that have this name, compared without case.
@@ -135,11 +142,6 @@ impl<'d, 't> Element<'d, 't> {
         let document = self.document;
         let first = self.node().first_child;
         std::iter::successors(first, move |&at| document.nodes[wide(at)].next).map(wide)
-    }
-
-    fn inner(self) -> &'t str {
-        let node = self.node();
-        self.document.text_at(node.inner_start, node.inner_end)
     }
 
     fn node(self) -> &'d Node {

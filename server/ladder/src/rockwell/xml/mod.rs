@@ -6,7 +6,6 @@
 //! ([`Passage`](super::passage::Passage)), and a tree that survives a file that was cut short: elements
 //! that never ended are there, marked as incomplete.
 
-mod attributes;
 mod element;
 
 use std::num::NonZeroU32;
@@ -19,6 +18,7 @@ use source::{Diagnostic, Span, codes};
 pub(super) use element::Element;
 
 use crate::reading::Source;
+use crate::xml::{Attribute, attributes, prefix_length, repeated};
 
 /// Deepest nesting that is read. Exports stay below 30.
 const DEEPEST: usize = 256;
@@ -27,6 +27,8 @@ const DEEPEST: usize = 256;
 pub(super) struct Document<'t> {
     source: Source<'t>,
     nodes: Vec<Node>,
+    /// Those of all elements, in the order of the text.
+    attributes: Vec<Attribute>,
 }
 
 /// A large file has a node for every few dozen bytes, so that nodes are kept
@@ -53,6 +55,8 @@ enum NodeKind {
         prefix: u32,
         /// Bytes of the whole name.
         name_length: u32,
+        /// Its first place in the list of attributes, and the one after its last.
+        attributes: (u32, u32),
         complete: bool,
     },
     Text,
@@ -64,7 +68,9 @@ enum NodeKind {
 pub(super) fn read<'t>(source: Source<'t>, diagnostics: &mut Vec<Diagnostic>) -> Document<'t> {
     let mut document = Document {
         source,
-        nodes: Vec::new(),
+        // About as many as exports hold, to grow the lists seldom.
+        nodes: Vec::with_capacity(source.text.len() / 64),
+        attributes: Vec::with_capacity(source.text.len() / 32),
     };
     if let Err(diagnostic) = document.fill(diagnostics) {
         diagnostics.push(*diagnostic);
@@ -99,8 +105,8 @@ impl<'t> Document<'t> {
             match event {
                 Event::Start(tag) => {
                     let name = tag.name().into_inner();
-                    let at = self.add_element(start..end, start + 1..end - 1, name, &open);
-                    self.check_attributes(at, diagnostics);
+                    let at =
+                        self.add_element(start..end, start + 1..end - 1, name, &open, diagnostics);
                     open.push(at);
                     if open.len() > DEEPEST {
                         return Err(self.too_deep(start, end));
@@ -108,8 +114,8 @@ impl<'t> Document<'t> {
                 }
                 Event::Empty(tag) => {
                     let name = tag.name().into_inner();
-                    let at = self.add_element(start..end, start + 1..end - 2, name, &open);
-                    self.check_attributes(at, diagnostics);
+                    let at =
+                        self.add_element(start..end, start + 1..end - 2, name, &open, diagnostics);
                     self.close(at, end);
                 }
                 Event::End(tag) => {
@@ -157,41 +163,30 @@ impl<'t> Document<'t> {
         inner: Range<usize>,
         name: &str,
         open: &[usize],
+        diagnostics: &mut Vec<Diagnostic>,
     ) -> usize {
-        let colon = name.bytes().rposition(|byte| byte == b':');
-        let kind = NodeKind::Element {
-            prefix: narrow(colon.map_or(0, |colon| colon + 1)),
-            name_length: narrow(name.len()),
-            complete: false,
-        };
         let inner = inner.start..inner.end.max(inner.start);
-        self.add(kind, whole, inner, open)
-    }
-
-    /// Reports attributes of an element that are none, or stand there twice.
-    fn check_attributes(&self, at: usize, diagnostics: &mut Vec<Diagnostic>) {
-        let node = &self.nodes[at];
-        let name_length = self.name_at(at).len();
-        let tag = self.text_at(node.inner_start, node.inner_end);
-        let place = self.source.base + node.inner_start as usize;
-        if let Some(fault) = attributes::fault(tag, name_length) {
+        let first = self.attributes.len();
+        let after_name = inner.start + name.len()..inner.end;
+        let fault = attributes(self.source.text, after_name, &mut self.attributes).err();
+        if let Some(at) = fault {
             diagnostics.push(
                 Diagnostic::new(
                     codes::XML_SYNTAX,
-                    Span::at(place + fault),
+                    Span::at(self.source.base + at),
                     "an attribute is not of the form name=\"value\"",
                 )
                 .help("the attributes before this place are read; export the file again"),
             );
         }
-        if let Some((name, found)) = attributes::repeated(tag, name_length) {
-            let message = format!("the attribute `{name}` stands here twice");
-            let place = Span::new(place + found.start, place + found.end);
-            diagnostics.push(
-                Diagnostic::new(codes::XML_SYNTAX, place, message)
-                    .help("remove one of them; the first counts"),
-            );
-        }
+        diagnostics.extend(repeated(self.source, &self.attributes[first..]));
+        let kind = NodeKind::Element {
+            prefix: narrow(prefix_length(name)),
+            name_length: narrow(name.len()),
+            attributes: (narrow(first), narrow(self.attributes.len())),
+            complete: false,
+        };
+        self.add(kind, whole, inner, open)
     }
 
     /// Closes the innermost open element of that name, and those inside it.
@@ -231,7 +226,7 @@ impl<'t> Document<'t> {
     fn add_text(&mut self, range: Range<usize>, open: &[usize]) {
         let text = self.source.text.get(range.clone()).unwrap_or_default();
         // Most texts are the blanks between tags, and those are ASCII.
-        if !text.trim_ascii_start().trim().is_empty() && !open.is_empty() {
+        if !text.trim_ascii_start().trim_start().is_empty() && !open.is_empty() {
             self.add(NodeKind::Text, range.clone(), range, open);
         }
     }
