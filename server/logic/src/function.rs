@@ -1,6 +1,7 @@
 use std::collections::BTreeSet;
 
-use biodivine_lib_bdd::{Bdd, BddNode, BddVariable, BddVariableSet};
+use biodivine_lib_bdd::{Bdd, BddNode, BddPointer, BddVariable, BddVariableSet};
+use rustc_hash::FxHashMap;
 
 use crate::{Atom, AtomId, Atoms, Budget, Expr, Stop};
 
@@ -20,8 +21,11 @@ use crate::{Atom, AtomId, Atoms, Budget, Expr, Stop};
 pub struct Function {
     /// Atoms the function depends on, ascending; the diagram's variable k is
     /// the k-th of them.
-    support: Vec<AtomId>,
-    diagram: Bdd,
+    pub(crate) support: Vec<AtomId>,
+    /// Nodes in the order of a walk that goes down the high branches first and
+    /// lists a node after all below it: the order that operations leave them
+    /// in, by which equal functions are equal values.
+    pub(crate) diagram: Bdd,
 }
 
 /// An atom or its complement.
@@ -174,9 +178,8 @@ impl Function {
         match self.support.binary_search(&atom) {
             Err(_) => self.clone(),
             Ok(at) => {
-                let variable = BddVariable::from_index(at);
-                let diagram = self.diagram.var_restrict(variable, value);
-                Self::shrunk(&self.support, diagram)
+                let nodes = fixed(&self.diagram, BddVariable::from_index(at), value);
+                Self::of_listed(&self.support, nodes)
             }
         }
     }
@@ -246,11 +249,6 @@ impl Function {
         })
     }
 
-    /// The first atom of the support, the root of the diagram.
-    pub(crate) fn top(&self) -> Option<AtomId> {
-        self.support.first().copied()
-    }
-
     fn combine(
         &self,
         other: &Self,
@@ -281,56 +279,154 @@ impl Function {
             }
             place
         });
-        renumbered(&self.diagram, &places.collect::<Vec<_>>(), support.len())
+        let places: Vec<usize> = places.collect();
+        renumbered(self.diagram.clone(), &places, support.len())
     }
 
     /// A function of `diagram` over `support`, less the atoms that it does
     /// not depend on.
     fn shrunk(support: &[AtomId], diagram: Bdd) -> Self {
-        if diagram.is_true() || diagram.is_false() {
-            return Self::constant(diagram.is_true());
-        }
-        let needed = diagram.support_set();
-        if needed.len() == support.len() {
+        let needed = needed(&diagram, support.len());
+        if diagram.size() > 2 && needed.iter().all(|needed| *needed) {
             return Self {
                 support: support.to_vec(),
                 diagram,
             };
         }
+        Self::of_listed(support, diagram.to_nodes())
+    }
+
+    /// The same of the nodes of a diagram.
+    fn of_listed(support: &[AtomId], nodes: Vec<BddNode>) -> Self {
+        if nodes.len() <= 2 {
+            return Self::constant(nodes.len() == 2);
+        }
+        let diagram = checked(&nodes);
+        let needed = needed(&diagram, support.len());
         let mut places = vec![0; support.len()];
-        let mut kept = Vec::with_capacity(needed.len());
+        let mut kept = Vec::with_capacity(support.len());
         for (at, atom) in support.iter().enumerate() {
-            if needed.contains(&BddVariable::from_index(at)) {
+            if needed[at] {
                 places[at] = kept.len();
                 kept.push(*atom);
             }
         }
         Self {
-            diagram: renumbered(&diagram, &places, kept.len()),
+            diagram: renumbered(diagram, &places, kept.len()),
             support: kept,
         }
     }
+
+    /// The function of the last of `nodes`: each its atom and where its low
+    /// and high branches lead, counted from 2 after the constants. They must
+    /// stand in the order of a diagram.
+    pub(crate) fn of_nodes(nodes: &[(AtomId, usize, usize)]) -> Result<Self, Stop> {
+        let mut support: Vec<AtomId> = nodes.iter().map(|(atom, _, _)| *atom).collect();
+        support.sort_unstable();
+        support.dedup();
+        if support.len() > MOST_VARIABLES {
+            return Err(Stop::TooLarge);
+        }
+        let place = |atom: AtomId| support.partition_point(|other| *other < atom);
+        let mut listed = constants(support.len());
+        listed.extend(nodes.iter().map(|&(atom, low, high)| {
+            BddNode::mk_node(
+                BddVariable::from_index(place(atom)),
+                BddPointer::from_index(low),
+                BddPointer::from_index(high),
+            )
+        }));
+        Ok(Self {
+            diagram: checked(&listed),
+            support,
+        })
+    }
+}
+
+/// Which of `count` variables a diagram tests.
+fn needed(diagram: &Bdd, count: usize) -> Vec<bool> {
+    let mut needed = vec![false; count];
+    for at in 2..diagram.size() {
+        needed[diagram.var_of(BddPointer::from_index(at)).to_index()] = true;
+    }
+    needed
+}
+
+/// The first two nodes of every diagram over `count` variables.
+fn constants(count: usize) -> Vec<BddNode> {
+    vec![
+        BddNode::mk_zero(count as u16),
+        BddNode::mk_one(count as u16),
+    ]
+}
+
+/// The nodes of a diagram with a variable replaced by a constant, in the order
+/// that operations leave nodes in: a walk that goes down the high branches
+/// first and lists a node after all below it. (The library's own restriction
+/// goes down the low branches first, so that equal functions would not be
+/// equal values.)
+fn fixed(diagram: &Bdd, variable: BddVariable, value: bool) -> Vec<BddNode> {
+    let mut nodes = constants(diagram.num_vars().into());
+    let mut known: FxHashMap<BddNode, BddPointer> = FxHashMap::default();
+    let mut becomes: Vec<Option<BddPointer>> = vec![None; diagram.size()];
+    for (constant, pointer) in becomes
+        .iter_mut()
+        .zip([BddPointer::zero(), BddPointer::one()])
+    {
+        *constant = Some(pointer);
+    }
+    let root = diagram.root_pointer();
+    let mut open = vec![root];
+    while let Some(&here) = open.last() {
+        if becomes[here.to_index()].is_some() {
+            open.pop();
+            continue;
+        }
+        let mut low = diagram.low_link_of(here);
+        let mut high = diagram.high_link_of(here);
+        let own = diagram.var_of(here);
+        if own == variable {
+            (low, high) = if value { (high, high) } else { (low, low) };
+        }
+        match (becomes[low.to_index()], becomes[high.to_index()]) {
+            (_, None) => open.push(high),
+            (None, _) => open.push(low),
+            (Some(low), Some(high)) => {
+                let place = if low == high {
+                    low
+                } else {
+                    let node = BddNode::mk_node(own, low, high);
+                    *known.entry(node).or_insert_with(|| {
+                        nodes.push(node);
+                        BddPointer::from_index(nodes.len() - 1)
+                    })
+                };
+                becomes[here.to_index()] = Some(place);
+                open.pop();
+            }
+        }
+    }
+    if becomes[root.to_index()] == Some(BddPointer::zero()) {
+        nodes.truncate(1);
+    }
+    nodes
 }
 
 /// The diagram with variable k renamed to `places[k]`, which must keep the
 /// order, over `count` variables.
-fn renumbered(diagram: &Bdd, places: &[usize], count: usize) -> Bdd {
-    let count = count as u16;
-    let nodes: Vec<BddNode> = diagram
-        .clone()
-        .to_nodes()
-        .into_iter()
-        .enumerate()
-        .map(|(at, node)| match at {
-            0 => BddNode::mk_zero(count),
-            1 => BddNode::mk_one(count),
-            _ => BddNode {
-                var: BddVariable::from_index(places[node.var.to_index()]),
-                ..node
-            },
-        })
-        .collect();
-    Bdd::from_nodes(&nodes).expect("renaming that keeps the order keeps a diagram valid")
+fn renumbered(diagram: Bdd, places: &[usize], count: usize) -> Bdd {
+    let mut nodes = diagram.to_nodes();
+    for node in &mut nodes[2..] {
+        node.var = BddVariable::from_index(places[node.var.to_index()]);
+    }
+    for (node, constant) in nodes.iter_mut().zip(constants(count)) {
+        *node = constant;
+    }
+    checked(&nodes)
+}
+
+fn checked(nodes: &[BddNode]) -> Bdd {
+    Bdd::from_nodes(nodes).expect("nodes that come from a diagram, in its order, make one")
 }
 
 fn united(a: &[AtomId], b: &[AtomId]) -> Vec<AtomId> {

@@ -65,6 +65,27 @@ proptest! {
     }
 
     #[test]
+    fn a_constant_in_place_of_an_atom_gives_the_same_value_however_it_is_reached(
+        expr in expressions(),
+        at in 0..NAMES.len(),
+        value in any::<bool>(),
+    ) {
+        let (mut atoms, budget) = (atoms(), Budget::default());
+        let function = Function::of(&expr, &mut atoms, &budget).unwrap();
+        let mut leaf = |atom: &logic::Atom| match atoms.find(atom) {
+            Some(id) if id.0 as usize == at => Function::constant(value),
+            Some(id) => Function::atom(id),
+            None => Function::constant(false),
+        };
+        let written = Function::build(&expr, &mut leaf, &budget).unwrap();
+        let restricted = function.restrict(logic::AtomId(at as u32), value);
+        prop_assert_eq!(&restricted, &written);
+        // And what lies between a function and itself is that function.
+        let between = written.simplified_within(&restricted, &budget).unwrap();
+        prop_assert_eq!(between, written);
+    }
+
+    #[test]
     fn products_are_irredundant_and_prime(expr in expressions()) {
         let (mut atoms, budget) = (atoms(), Budget::default());
         let function = Function::of(&expr, &mut atoms, &budget).unwrap();
