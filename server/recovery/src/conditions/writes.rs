@@ -11,7 +11,8 @@ use petgraph::graph::NodeIndex;
 use petgraph::visit::{Dfs, Reversed};
 use source::Span;
 
-use super::power::edge_of;
+use super::fold;
+use super::power::{Seen, edge_of, powers_seeing};
 use super::{Powers, TimerLaw, Walk, powers};
 
 /// Where an element stands in its program.
@@ -57,9 +58,10 @@ pub struct Write {
     pub span: Span,
     /// Coils that stand as normally closed contacts before it.
     pub closed_contacts: BTreeSet<AtomId>,
-    /// Whether a contact of the variable before it in the same rung is solved
-    /// after all earlier writes of that rung, and so sees what they wrote.
-    pub sees_earlier: bool,
+    /// Where contacts of the variable before it see what an earlier write on
+    /// the same rung has written: the guard with that in their place, over the
+    /// value before the rung.
+    pub effective: Option<Result<Function, Stop>>,
 }
 
 /// One write of a number.
@@ -123,7 +125,7 @@ struct Event {
     place: Place,
     span: Span,
     closed_contacts: BTreeSet<AtomId>,
-    sees_earlier: bool,
+    effective: Option<Result<Function, Stop>>,
 }
 
 /// What decides whether a visit is solved, as conditions.
@@ -148,8 +150,9 @@ struct Solving<'p> {
     place: (usize, usize),
     rung: &'p Rung,
     powers: Powers,
-    /// The element that last wrote a variable, so far.
-    written: HashMap<AtomId, usize>,
+    /// Variables that several of its coils write: the elements that have done
+    /// so, and the value after each, over the value before the rung.
+    rewritten: HashMap<AtomId, Vec<(NodeIndex, Result<Function, Stop>)>>,
 }
 
 impl<'p> Solving<'p> {
@@ -158,9 +161,56 @@ impl<'p> Solving<'p> {
             place,
             rung,
             powers: powers(&rung.network, walk),
-            written: HashMap::new(),
+            rewritten: rewritten(&rung.network, walk),
         }
     }
+
+    /// What the contacts at `places` see of `target` where an earlier coil has
+    /// written it.
+    fn seen(&self, target: AtomId, contacts: &[NodeIndex]) -> Seen {
+        let writes = self.rewritten.get(&target).map_or(&[][..], Vec::as_slice);
+        let last_before = |contact: NodeIndex| {
+            let before = writes.iter().rev().find(|(element, _)| *element < contact);
+            before.map(|(_, value)| (contact, value.clone()))
+        };
+        contacts.iter().copied().filter_map(last_before).collect()
+    }
+
+    /// Takes down what a coil has written.
+    fn add(&mut self, event: &Event, walk: &Walk<'_>) {
+        let Effect::Coil(target, kind) = event.effect else {
+            return;
+        };
+        let Some(writes) = self.rewritten.get_mut(&target) else {
+            return;
+        };
+        let before = writes.last().map(|(_, value)| value.clone());
+        let before = before.unwrap_or(Ok(Function::atom(target)));
+        let guard = event.effective.as_ref().unwrap_or(&event.guard).clone();
+        let zone = event.zone.clone();
+        let kind = WriteKind::Coil(kind);
+        let value =
+            before.and_then(|before| fold::apply(&kind, &guard?, &zone?, &before, walk.budget));
+        writes.push((NodeIndex::new(event.place.element), value));
+    }
+}
+
+/// The variables that several coils of a network write.
+fn rewritten(
+    network: &Network,
+    walk: &mut Walk<'_>,
+) -> HashMap<AtomId, Vec<(NodeIndex, Result<Function, Stop>)>> {
+    let mut once = BTreeSet::new();
+    let mut rewritten = HashMap::new();
+    for (_, element) in network.elements() {
+        if let ElementKind::Coil(coil) = &element.kind
+            && let target = walk.atoms.add_variable(&coil.operand.name)
+            && !once.insert(target)
+        {
+            rewritten.insert(target, Vec::new());
+        }
+    }
+    rewritten
 }
 
 struct Collector<'p> {
@@ -225,24 +275,23 @@ impl Collector<'_> {
         walk: &mut Walk<'_>,
     ) {
         let (routine, at) = solving.place;
-        let Solving { rung, powers, .. } = solving;
+        let network = &solving.rung.network;
         for element in elements.map(NodeIndex::new) {
-            if element.index() >= rung.network.len() {
+            if element.index() >= network.len() {
                 break;
             }
-            let node = rung.network.element(element);
+            let node = network.element(element);
             for effect in effects(&node.kind, walk) {
-                let upstream = upstream(&rung.network, element, &effect, walk);
-                let earlier = upstream
-                    .target
-                    .and_then(|target| solving.written.insert(target, element.index()));
-                let sees_earlier = earlier.is_some_and(|write| {
-                    upstream
-                        .first_contact
-                        .is_some_and(|contact| contact > write)
+                let upstream = upstream(network, element, &effect, walk);
+                let seen = (upstream.target)
+                    .map(|target| solving.seen(target, &upstream.contacts))
+                    .filter(|seen| !seen.is_empty());
+                let effective = seen.map(|seen| {
+                    let powers = powers_seeing(&seen, network, walk);
+                    guard_of(&effect, &powers, element, walk)
                 });
-                self.events.push(Event {
-                    guard: guard_of(&effect, powers, element, walk),
+                let event = Event {
+                    guard: guard_of(&effect, &solving.powers, element, walk),
                     effect,
                     solved: circumstances.solved.clone(),
                     zone: circumstances.zone.clone(),
@@ -253,10 +302,12 @@ impl Collector<'_> {
                     },
                     span: node.span,
                     closed_contacts: upstream.closed_contacts,
-                    sees_earlier,
-                });
+                    effective,
+                };
+                solving.add(&event, walk);
+                self.events.push(event);
             }
-            self.timer(&node.kind, powers, element, circumstances, walk);
+            self.timer(&node.kind, &solving.powers, element, circumstances, walk);
         }
     }
 
@@ -434,8 +485,8 @@ fn guard_of(
 struct Upstream {
     /// The Boolean variable that the element writes, if it is a coil.
     target: Option<AtomId>,
-    /// The first contact of that variable, as a place in the network.
-    first_contact: Option<usize>,
+    /// Contacts that let power pass by that variable's value.
+    contacts: Vec<NodeIndex>,
     /// Variables of normally closed contacts.
     closed_contacts: BTreeSet<AtomId>,
 }
@@ -449,11 +500,11 @@ fn upstream(
     let Effect::Coil(target, _) = effect else {
         return Upstream {
             target: None,
-            first_contact: None,
+            contacts: Vec::new(),
             closed_contacts: BTreeSet::new(),
         };
     };
-    let mut first_contact = None;
+    let mut contacts = Vec::new();
     let mut closed_contacts = BTreeSet::new();
     let backwards = Reversed(network.graph());
     let mut search = Dfs::new(backwards, element);
@@ -462,8 +513,9 @@ fn upstream(
             continue;
         };
         let atom = walk.atoms.add_variable(&contact.operand.name);
-        if atom == *target {
-            first_contact = Some(first_contact.unwrap_or(usize::MAX).min(at.index()));
+        let by_value = matches!(contact.kind, ContactKind::Open | ContactKind::Closed);
+        if atom == *target && by_value {
+            contacts.push(at);
         }
         if contact.kind == ContactKind::Closed {
             closed_contacts.insert(atom);
@@ -471,7 +523,7 @@ fn upstream(
     }
     Upstream {
         target: Some(*target),
-        first_contact,
+        contacts,
         closed_contacts,
     }
 }
@@ -534,7 +586,7 @@ fn write(event: &Event, target: AtomId, kind: WriteKind) -> Write {
         place: event.place,
         span: event.span,
         closed_contacts: event.closed_contacts.clone(),
-        sees_earlier: event.sees_earlier,
+        effective: event.effective.clone(),
     }
 }
 

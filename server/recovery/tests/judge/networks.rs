@@ -153,18 +153,6 @@ impl Shape {
     }
 }
 
-impl Shape {
-    /// Whether a contact looks at the variable.
-    pub fn looks_at(&self, name: &str) -> bool {
-        match self {
-            Self::Element(kind) => kind.reads().iter().any(|read| &*read.name == name),
-            Self::Series(parts) | Self::Parallel(parts) => {
-                parts.iter().any(|part| part.looks_at(name))
-            }
-        }
-    }
-}
-
 /// A shape of at most `size` elements.
 pub fn shape(
     element: impl Strategy<Value = ElementKind> + 'static,
