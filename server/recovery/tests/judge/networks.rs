@@ -59,6 +59,7 @@ fn timer() -> impl Strategy<Value = ElementKind> {
             instance: named("T"),
             output: "T.Q".into(),
             preset_ms: None,
+            preset_from: None,
         })
     })
 }
@@ -71,6 +72,7 @@ fn counter() -> impl Strategy<Value = ElementKind> {
             instance: named("C"),
             output: "C.DN".into(),
             preset: None,
+            preset_from: None,
         })
     })
 }
