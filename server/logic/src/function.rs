@@ -186,7 +186,7 @@ impl Function {
 
     /// The function with `atom` replaced by another function.
     pub fn substitute(&self, atom: AtomId, by: &Self, budget: &Budget) -> Result<Self, Stop> {
-        if !self.depends_on(atom) {
+        if !self.depends_on(atom) || *by == Self::atom(atom) {
             return Ok(self.clone());
         }
         let high = self.restrict(atom, true).and(by, budget)?;

@@ -4,6 +4,7 @@ use ladder::{Class, Program, Role};
 use logic::{AtomId, Budget, Function, Name};
 
 use crate::conditions::{Conditions, Variable, conditions};
+use crate::conversion::Sums;
 use crate::groups::{Group, groups};
 use crate::registers::{Register, registers};
 use crate::states::{States, states};
@@ -27,6 +28,8 @@ pub struct Analysis<'p> {
     /// Atoms that the condition of another variable, a timer or a number
     /// depends on.
     read: HashSet<AtomId>,
+    /// What conversions have put into words.
+    pub(crate) sums: Sums,
 }
 
 /// Recovers everything from `program`. When `budget` is cancelled the answer
@@ -40,6 +43,7 @@ pub fn analyse<'p>(program: &'p Program, budget: &Budget) -> Analysis<'p> {
     Analysis {
         program,
         read: atoms_read(&conditions),
+        sums: Sums::default(),
         conditions,
         states,
         registers,

@@ -29,11 +29,14 @@ fn is_coil_or_copy(write: &Write) -> bool {
 
 fn variable(atom: AtomId, writes: Vec<Write>, walk: &mut Walk<'_>) -> Variable {
     let next = next_value(atom, &writes, Skipping::Keeps, walk.budget);
-    let always = next_value(atom, &writes, Skipping::Never, walk.budget);
     let holds = |next: &Result<Function, Stop>| {
         next.as_ref()
             .is_ok_and(|function| function.depends_on(atom))
     };
+    let is_skipped = |write: &Write| write.solved.as_ref().is_ok_and(|it| !it.is_true());
+    let kept_when_skipped = holds(&next)
+        && writes.iter().any(is_skipped)
+        && !holds(&next_value(atom, &writes, Skipping::Never, walk.budget));
     let closed_contacts = writes
         .iter()
         .flat_map(|write| write.closed_contacts.iter().copied())
@@ -45,7 +48,7 @@ fn variable(atom: AtomId, writes: Vec<Write>, walk: &mut Walk<'_>) -> Variable {
             other => other.to_string().into(),
         },
         atom,
-        kept_when_skipped: holds(&next) && !holds(&always),
+        kept_when_skipped,
         closed_contacts: closed_contacts.into_iter().collect(),
         next,
         writes,
@@ -148,6 +151,9 @@ mod tests {
     #[test]
     fn a_contact_before_the_first_leg_and_one_behind_it_see_different_values() {
         assert_eq!(next("/q -> set q, (q -> reset q)"), "q");
-        assert_eq!(next("q -> reset q, (a*/q -> set q), (b*q -> reset q)"), "a*/b*q");
+        assert_eq!(
+            next("q -> reset q, (a*/q -> set q), (b*q -> reset q)"),
+            "a*/b*q"
+        );
     }
 }

@@ -3,17 +3,17 @@
 use std::collections::{BTreeSet, HashMap};
 
 use ladder::{
-    Assignment, CoilKind, ContactKind, Edge, ElementKind, Network, PinDirection, Program, Rung,
-    Value, flow,
+    Assignment, CoilKind, ContactKind, Edge, ElementKind, Network, PinDirection, Program, Value,
+    flow,
 };
 use logic::{Atom, AtomId, Function, Name, Stop};
 use petgraph::graph::NodeIndex;
 use petgraph::visit::{Dfs, Reversed};
 use source::Span;
 
-use super::fold;
-use super::power::{Seen, edge_of, powers_seeing};
-use super::{Powers, TimerLaw, Walk, powers};
+use super::power::{edge_of, powers_seeing};
+use super::solving::Solving;
+use super::{Powers, TimerLaw, Walk};
 
 /// Where an element stands in its program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -111,21 +111,22 @@ pub(super) fn collect(program: &Program, walk: &mut Walk<'_>) -> Found {
 
 /// What an element does, before words and their bits are told apart: which
 /// bits of a word matter is known only when all rungs have been seen.
-enum Effect {
+pub(super) enum Effect {
     Coil(AtomId, CoilKind),
     Assign(Assignment),
     Unknown { target: Name, by: Name },
 }
 
-struct Event {
-    effect: Effect,
-    guard: Result<Function, Stop>,
+/// An effect, and when it happens.
+pub(super) struct Event {
+    pub(super) effect: Effect,
+    pub(super) guard: Result<Function, Stop>,
     solved: Result<Function, Stop>,
-    zone: Result<Function, Stop>,
-    place: Place,
+    pub(super) zone: Result<Function, Stop>,
+    pub(super) place: Place,
     span: Span,
     closed_contacts: BTreeSet<AtomId>,
-    effective: Option<Result<Function, Stop>>,
+    pub(super) effective: Option<Result<Function, Stop>>,
 }
 
 /// What decides whether a visit is solved, as conditions.
@@ -142,75 +143,6 @@ impl Circumstances {
             zone: Ok(Function::constant(true)),
         }
     }
-}
-
-/// A rung while it is solved, in one stretch or several.
-struct Solving<'p> {
-    /// The routine, and the rung in it.
-    place: (usize, usize),
-    rung: &'p Rung,
-    powers: Powers,
-    /// Variables that several of its coils write: the elements that have done
-    /// so, and the value after each, over the value before the rung.
-    rewritten: HashMap<AtomId, Vec<(NodeIndex, Result<Function, Stop>)>>,
-}
-
-impl<'p> Solving<'p> {
-    fn new(place: (usize, usize), rung: &'p Rung, walk: &mut Walk<'_>) -> Self {
-        Self {
-            place,
-            rung,
-            powers: powers(&rung.network, walk),
-            rewritten: rewritten(&rung.network, walk),
-        }
-    }
-
-    /// What the contacts at `places` see of `target` where an earlier coil has
-    /// written it.
-    fn seen(&self, target: AtomId, contacts: &[NodeIndex]) -> Seen {
-        let writes = self.rewritten.get(&target).map_or(&[][..], Vec::as_slice);
-        let last_before = |contact: NodeIndex| {
-            let before = writes.iter().rev().find(|(element, _)| *element < contact);
-            before.map(|(_, value)| (contact, value.clone()))
-        };
-        contacts.iter().copied().filter_map(last_before).collect()
-    }
-
-    /// Takes down what a coil has written.
-    fn add(&mut self, event: &Event, walk: &Walk<'_>) {
-        let Effect::Coil(target, kind) = event.effect else {
-            return;
-        };
-        let Some(writes) = self.rewritten.get_mut(&target) else {
-            return;
-        };
-        let before = writes.last().map(|(_, value)| value.clone());
-        let before = before.unwrap_or(Ok(Function::atom(target)));
-        let guard = event.effective.as_ref().unwrap_or(&event.guard).clone();
-        let zone = event.zone.clone();
-        let kind = WriteKind::Coil(kind);
-        let value =
-            before.and_then(|before| fold::apply(&kind, &guard?, &zone?, &before, walk.budget));
-        writes.push((NodeIndex::new(event.place.element), value));
-    }
-}
-
-/// The variables that several coils of a network write.
-fn rewritten(
-    network: &Network,
-    walk: &mut Walk<'_>,
-) -> HashMap<AtomId, Vec<(NodeIndex, Result<Function, Stop>)>> {
-    let mut once = BTreeSet::new();
-    let mut rewritten = HashMap::new();
-    for (_, element) in network.elements() {
-        if let ElementKind::Coil(coil) = &element.kind
-            && let target = walk.atoms.add_variable(&coil.operand.name)
-            && !once.insert(target)
-        {
-            rewritten.insert(target, Vec::new());
-        }
-    }
-    rewritten
 }
 
 struct Collector<'p> {

@@ -57,6 +57,17 @@ pub fn update(
     decisions: &[Decision],
     budget: &Budget,
 ) -> Update {
+    if existing.grafcet == Grafcet::default() {
+        // Nothing that could be kept, and nothing that could depart.
+        return Update {
+            spec: Spec {
+                grafcet: super::spec(analysis, decisions, budget).grafcet,
+                decisions: decisions.to_vec(),
+                ..existing.clone()
+            },
+            departures: Vec::new(),
+        };
+    }
     let base = base(analysis, existing, budget);
     let new = if base.decisions == decisions {
         base.clone()
