@@ -1,6 +1,6 @@
 use std::collections::BTreeSet;
 
-use biodivine_lib_bdd::{Bdd, BddNode, BddPointer, BddVariable, BddVariableSet};
+use biodivine_lib_bdd::{Bdd, BddNode, BddPointer, BddVariable};
 use rustc_hash::FxHashMap;
 
 use crate::{Atom, AtomId, Atoms, Budget, Expr, Stop};
@@ -37,29 +37,35 @@ pub struct Literal {
     pub positive: bool,
 }
 
+/// As long as no more atoms are kept, to try all their values is quicker than
+/// to quantify all others away.
+const FEW_KEPT: usize = 4;
+
 /// Diagrams of this library hold at most this many variables.
 const MOST_VARIABLES: usize = u16::MAX as usize - 2;
 
 impl Function {
     /// The function that is always `value`.
     pub fn constant(value: bool) -> Self {
-        let none = BddVariableSet::new_anonymous(0);
+        let nodes = constants(0);
         Self {
             support: Vec::new(),
-            diagram: if value {
-                none.mk_true()
-            } else {
-                none.mk_false()
-            },
+            diagram: checked(if value { &nodes } else { &nodes[..1] }),
         }
     }
 
     /// The function that is `atom`, or its complement.
     pub fn literal(atom: AtomId, positive: bool) -> Self {
-        let one = BddVariableSet::new_anonymous(1);
+        let mut nodes = constants(1);
+        let ends = [!positive, positive].map(BddPointer::from_bool);
+        nodes.push(BddNode::mk_node(
+            BddVariable::from_index(0),
+            ends[0],
+            ends[1],
+        ));
         Self {
             support: vec![atom],
-            diagram: one.mk_literal(BddVariable::from_index(0), positive),
+            diagram: checked(&nodes),
         }
     }
 
@@ -203,14 +209,29 @@ impl Function {
     /// The function with every atom but those of `keep` quantified away: what
     /// the function says about `keep` alone.
     pub fn project(&self, keep: &BTreeSet<AtomId>, budget: &Budget) -> Result<Self, Stop> {
-        let away: Vec<AtomId> = self
-            .support
-            .iter()
-            .copied()
-            .filter(|atom| !keep.contains(atom))
-            .collect();
+        let support = self.support.iter().copied();
+        let (kept, away): (Vec<AtomId>, Vec<AtomId>) =
+            support.partition(|atom| keep.contains(atom));
+        if !away.is_empty() && kept.len() <= FEW_KEPT {
+            return self.projected(&kept, budget);
+        }
         away.into_iter()
             .try_fold(self.clone(), |function, atom| function.exists(atom, budget))
+    }
+
+    /// The same for a few atoms, all that are kept of the support: it can be
+    /// true for some of their values exactly if what these leave is not false.
+    fn projected(&self, kept: &[AtomId], budget: &Budget) -> Result<Self, Stop> {
+        let Some((&atom, rest)) = kept.split_first() else {
+            return Ok(Self::constant(!self.is_false()));
+        };
+        let low = self.restrict(atom, false).projected(rest, budget)?;
+        let high = self.restrict(atom, true).projected(rest, budget)?;
+        if low == high {
+            return Ok(low);
+        }
+        let low = low.and(&Self::literal(atom, false), budget)?;
+        low.or(&high.and(&Self::atom(atom), budget)?, budget)
     }
 
     /// Whether raising `atom` from 0 to 1 never makes the function fall.
@@ -280,13 +301,18 @@ impl Function {
             place
         });
         let places: Vec<usize> = places.collect();
-        renumbered(self.diagram.clone(), &places, support.len())
+        let mut nodes = self.diagram.clone().to_nodes();
+        renumber(&mut nodes, &places, support.len());
+        checked(&nodes)
     }
 
     /// A function of `diagram` over `support`, less the atoms that it does
     /// not depend on.
     fn shrunk(support: &[AtomId], diagram: Bdd) -> Self {
-        let needed = needed(&diagram, support.len());
+        let mut needed = vec![false; support.len()];
+        for at in 2..diagram.size() {
+            needed[diagram.var_of(BddPointer::from_index(at)).to_index()] = true;
+        }
         if diagram.size() > 2 && needed.iter().all(|needed| *needed) {
             return Self {
                 support: support.to_vec(),
@@ -297,12 +323,14 @@ impl Function {
     }
 
     /// The same of the nodes of a diagram.
-    fn of_listed(support: &[AtomId], nodes: Vec<BddNode>) -> Self {
+    fn of_listed(support: &[AtomId], mut nodes: Vec<BddNode>) -> Self {
         if nodes.len() <= 2 {
             return Self::constant(nodes.len() == 2);
         }
-        let diagram = checked(&nodes);
-        let needed = needed(&diagram, support.len());
+        let mut needed = vec![false; support.len()];
+        for node in &nodes[2..] {
+            needed[node.var.to_index()] = true;
+        }
         let mut places = vec![0; support.len()];
         let mut kept = Vec::with_capacity(support.len());
         for (at, atom) in support.iter().enumerate() {
@@ -311,8 +339,9 @@ impl Function {
                 kept.push(*atom);
             }
         }
+        renumber(&mut nodes, &places, kept.len());
         Self {
-            diagram: renumbered(diagram, &places, kept.len()),
+            diagram: checked(&nodes),
             support: kept,
         }
     }
@@ -341,15 +370,6 @@ impl Function {
             support,
         })
     }
-}
-
-/// Which of `count` variables a diagram tests.
-fn needed(diagram: &Bdd, count: usize) -> Vec<bool> {
-    let mut needed = vec![false; count];
-    for at in 2..diagram.size() {
-        needed[diagram.var_of(BddPointer::from_index(at)).to_index()] = true;
-    }
-    needed
 }
 
 /// The first two nodes of every diagram over `count` variables.
@@ -412,17 +432,15 @@ fn fixed(diagram: &Bdd, variable: BddVariable, value: bool) -> Vec<BddNode> {
     nodes
 }
 
-/// The diagram with variable k renamed to `places[k]`, which must keep the
-/// order, over `count` variables.
-fn renumbered(diagram: Bdd, places: &[usize], count: usize) -> Bdd {
-    let mut nodes = diagram.to_nodes();
-    for node in &mut nodes[2..] {
+/// Renames variable k of a diagram's nodes to `places[k]`, which must keep the
+/// order, of `count` variables.
+fn renumber(nodes: &mut [BddNode], places: &[usize], count: usize) {
+    for node in nodes.iter_mut().skip(2) {
         node.var = BddVariable::from_index(places[node.var.to_index()]);
     }
     for (node, constant) in nodes.iter_mut().zip(constants(count)) {
         *node = constant;
     }
-    checked(&nodes)
 }
 
 fn checked(nodes: &[BddNode]) -> Bdd {

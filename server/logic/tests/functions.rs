@@ -206,3 +206,39 @@ fn a_problem_says_what_was_expected_and_what_stands_there() {
         "expected a name, `/` or `(`, found a quote that does not end on its line"
     );
 }
+
+/// `a0*b0 + a1*b1 + ...` with all of the `a` before all of the `b`: the worst
+/// order, in which the diagram doubles with every pair.
+fn pairs(count: u32, budget: &Budget) -> Function {
+    let atom = |at| Function::atom(logic::AtomId(at));
+    (0..count).fold(Function::constant(false), |sum, at| {
+        let pair = atom(at).and(&atom(count + at), budget).unwrap();
+        sum.or(&pair, budget).unwrap()
+    })
+}
+
+#[test]
+fn a_large_diagram_with_a_short_sum_is_written() {
+    let budget = Budget::default();
+    let function = pairs(11, &budget);
+    assert!(function.nodes() > 4_000);
+    assert_eq!(function.products(&budget).map(|sum| sum.len()), Ok(11));
+}
+
+#[test]
+fn what_needs_more_products_than_allowed_is_too_large() {
+    let budget = Budget {
+        products: 10,
+        ..Budget::default()
+    };
+    let sum = pairs(11, &budget).products(&budget);
+    assert_eq!(sum, Err(logic::Stop::TooLarge));
+}
+
+#[test]
+fn no_sum_is_written_after_a_cancel() {
+    let budget = Budget::default();
+    let function = pairs(3, &budget);
+    budget.cancel.cancel();
+    assert_eq!(function.products(&budget), Err(logic::Stop::Cancelled));
+}

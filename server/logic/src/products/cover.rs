@@ -149,6 +149,7 @@ impl<'b> Covering<'b> {
             self.room = (self.room.checked_sub(cover.products)).ok_or(Stop::TooLarge)?;
             return Ok(Some(cover));
         }
+        self.table.budget().check()?;
         self.steps = self.steps.checked_sub(1).ok_or(Stop::TooLarge)?;
         let atom = self.table.first_atom(lower, upper);
         open.push(Step {

@@ -14,7 +14,8 @@ pub(super) struct Table<'b> {
     budget: &'b Budget,
     nodes: Vec<Node>,
     places: FxHashMap<Node, Part>,
-    known: FxHashMap<(Operation, Part, Part), Part>,
+    /// What operations have given, for each of them.
+    known: [FxHashMap<(Part, Part), Part>; 3],
     /// Nodes that operations may still add.
     room: usize,
 }
@@ -63,9 +64,14 @@ impl<'b> Table<'b> {
             budget,
             nodes: vec![constant(Part::FALSE), constant(Part::TRUE)],
             places: FxHashMap::default(),
-            known: FxHashMap::default(),
+            known: Default::default(),
             room: budget.nodes.saturating_mul(NODES_PER_NODE),
         }
+    }
+
+    /// What the table may cost.
+    pub(super) fn budget(&self) -> &'b Budget {
+        self.budget
     }
 
     /// Puts a function into the table.
@@ -165,7 +171,7 @@ impl<'b> Table<'b> {
             let high = self.at_once(operation, high_a, high_b);
             if let (Some(low), Some(high)) = (low, high) {
                 let part = self.choice(atom, low, high)?;
-                self.known.insert(ordered(operation, a, b), part);
+                self.known[operation as usize].insert(ordered(operation, a, b), part);
                 continue;
             }
             if low.is_none() {
@@ -191,7 +197,10 @@ impl<'b> Table<'b> {
             (Operation::AndNot, a, FALSE) => Some(a),
             (Operation::AndNot, a, b) if a == b => Some(FALSE),
             (_, a, b) if a == b => Some(a),
-            _ => self.known.get(&ordered(operation, a, b)).copied(),
+            _ => {
+                let known = &self.known[operation as usize];
+                known.get(&ordered(operation, a, b)).copied()
+            }
         }
     }
 
@@ -210,9 +219,9 @@ impl<'b> Table<'b> {
 }
 
 /// The key of an operation: the same for `a*b` and `b*a`.
-fn ordered(operation: Operation, a: Part, b: Part) -> (Operation, Part, Part) {
+fn ordered(operation: Operation, a: Part, b: Part) -> (Part, Part) {
     match operation {
-        Operation::And | Operation::Or => (operation, a.min(b), a.max(b)),
-        Operation::AndNot => (operation, a, b),
+        Operation::And | Operation::Or => (a.min(b), a.max(b)),
+        Operation::AndNot => (a, b),
     }
 }
