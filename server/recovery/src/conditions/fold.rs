@@ -145,7 +145,7 @@ mod tests {
     #[test]
     fn a_leg_sees_what_the_legs_above_it_have_written() {
         assert_eq!(next("a -> q, (b*/q -> set q)"), "a");
-        assert_eq!(next("a -> /q, (b*q -> q)"), "/a");
+        assert_eq!(next("a -> set q, (b*q -> reset q)"), "q*/a + a*/b");
     }
 
     #[test]
@@ -153,7 +153,7 @@ mod tests {
         assert_eq!(next("/q -> set q, (q -> reset q)"), "q");
         assert_eq!(
             next("q -> reset q, (a*/q -> set q), (b*q -> reset q)"),
-            "a*/b*q"
+            "q*a*/b"
         );
     }
 }
