@@ -3,10 +3,10 @@ use std::collections::BTreeMap;
 use ::ladder::{CoilKind, Routine, Rung};
 use logic::{AtomId, Budget, Function, Name};
 use recovery::Analysis;
-use recovery::conditions::{Conditions, Place, Variable, WriteKind};
+use recovery::conditions::{Place, Variable, WriteKind};
 use source::Span;
 
-use crate::said;
+use crate::condition::Words;
 
 /// A variable that coils write.
 pub struct Coil<'a> {
@@ -102,20 +102,20 @@ pub fn coils<'a>(analysis: &'a Analysis, budget: &Budget) -> Vec<Coil<'a>> {
 /// What is known of one variable that coils write.
 pub fn coil<'a>(variable: &'a Variable, analysis: &'a Analysis, budget: &Budget) -> Coil<'a> {
     let conditions = &analysis.conditions;
+    let mut words = Words::new(conditions, budget);
     let declared = analysis.program.declarations.find(&variable.name);
     let next = variable.next.as_ref().ok();
-    let say = |next: &Function| four(next, variable.atom, conditions, budget);
     let resolved = next.and_then(|next| {
         let auxiliaries = &analysis.states.auxiliaries;
         let resolved = auxiliaries.resolve(next, conditions, budget);
-        (resolved != *next).then(|| say(&resolved))?
+        (resolved != *next).then(|| four(&resolved, variable.atom, &mut words))?
     });
     let opaque = next.map_or(Vec::new(), |next| conditions.opaque_in(next));
     Coil {
         name: &variable.name,
         address: declared.and_then(|it| it.address.as_deref()),
         description: analysis.description(&variable.name),
-        conditions: next.and_then(say),
+        conditions: next.and_then(|next| four(next, variable.atom, &mut words)),
         resolved,
         persistent: variable.is_persistent(budget) && !variable.kept_when_skipped,
         part: part(variable, analysis, budget),
@@ -124,17 +124,17 @@ pub fn coil<'a>(variable: &'a Variable, analysis: &'a Analysis, budget: &Budget)
             .into_iter()
             .map(|atom| conditions.atoms.atom(atom).to_string())
             .collect(),
-        writes: writes(variable, analysis, budget),
+        writes: writes(variable, analysis, &mut words, budget),
     }
 }
 
-fn four(next: &Function, atom: AtomId, conditions: &Conditions, budget: &Budget) -> Option<Said> {
+fn four(next: &Function, atom: AtomId, words: &mut Words<'_>) -> Option<Said> {
     let stays_on = next.restrict(atom, true);
     Some(Said {
-        activation: said(next, conditions, budget)?,
-        turns_on: said(&next.restrict(atom, false), conditions, budget)?,
-        deactivation: said(&stays_on.not(), conditions, budget)?,
-        stays_on: said(&stays_on, conditions, budget)?,
+        activation: words.say(next)?,
+        turns_on: words.say(&next.restrict(atom, false))?,
+        deactivation: words.say(&stays_on.not())?,
+        stays_on: words.say(&stays_on)?,
     })
 }
 
@@ -169,8 +169,12 @@ fn interlocks(variable: &Variable, analysis: &Analysis) -> Vec<Name> {
 
 /// The coils that write a variable. One in a routine that is called from
 /// several places is drawn once, and solved when any of them calls.
-fn writes<'a>(variable: &'a Variable, analysis: &'a Analysis, budget: &Budget) -> Vec<Drawn<'a>> {
-    let conditions = &analysis.conditions;
+fn writes<'a>(
+    variable: &'a Variable,
+    analysis: &'a Analysis,
+    words: &mut Words<'_>,
+    budget: &Budget,
+) -> Vec<Drawn<'a>> {
     let mut solved: BTreeMap<Place, Option<Function>> = BTreeMap::new();
     for write in &variable.writes {
         let here = write.solved.as_ref().ok();
@@ -201,8 +205,8 @@ fn writes<'a>(variable: &'a Variable, analysis: &'a Analysis, budget: &Budget) -
             kind,
             routine,
             rung,
-            guard: guard.and_then(|guard| said(guard, conditions, budget)),
-            solved: solved.and_then(|solved| said(&solved, conditions, budget)),
+            guard: guard.and_then(|guard| words.say(guard)),
+            solved: solved.and_then(|solved| words.say(&solved)),
             span: write.span,
         });
     }

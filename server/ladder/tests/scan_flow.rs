@@ -133,9 +133,9 @@ fn a_return_guards_the_rest_of_its_routine_only() {
 }
 
 #[test]
-fn a_temporary_end_guards_the_rest_of_its_main_routine() {
+fn the_end_of_a_program_guards_the_rest_of_its_main_routine() {
     check(
-        "main M\n  JSR(Sub)\n  OTE(a)\nmain N\n  OTE(d)\ncalled Sub\n  XIC(b) TND\n  OTE(c)\n",
+        "main M\n  JSR(Sub)\n  OTE(a)\nmain N\n  OTE(d)\ncalled Sub\n  XIC(b) END\n  OTE(c)\n",
         "M.0
          Sub.0 if M.0
          Sub.1 if M.0, /Sub.0

@@ -320,10 +320,35 @@ fn a_call_in_the_middle_of_a_rung_runs_before_what_stands_behind_it() {
 }
 
 #[test]
-fn a_temporary_end_leaves_the_main_routine() {
+fn a_temporary_end_leaves_only_the_routine_that_it_stands_in() {
     check_program(
         &program(
-            "main M\n  JSR(Sub)\n  XIC(a) OTE(q)\nmain N\n  XIC(a) OTE(r)\ncalled Sub\n  XIC(end) TND\n",
+            "main M\n  JSR(Sub)\n  XIC(a) OTE(q)\ncalled Sub\n  XIC(end) TND\n  XIC(a) OTE(r)\n",
+        ),
+        "a . end /a .",
+        &[("q", "1 0"), ("r", "1 1")],
+    );
+}
+
+#[test]
+fn a_preset_in_a_variable_is_read_whenever_the_box_is_solved() {
+    check_program(
+        &program("main M\n  XIC(a) TON(T,delay)\n  XIC(T.DN) OTE(q)\n  MOV(150,delay)\n"),
+        "a . . . . /a .",
+        &[("T.PRE", "0 150 150 150 150"), ("q", "1 0 1 1 0")],
+    );
+    check_program(
+        &program("main M\n  MOV(2,most)\n  XIC(a) CTU(C,most)\n  XIC(C.DN) OTE(q)\n"),
+        "a . /a . a . .",
+        &[("C.PRE", "2 2 2 2"), ("q", "0 0 1 1")],
+    );
+}
+
+#[test]
+fn the_end_of_a_program_leaves_its_main_routine() {
+    check_program(
+        &program(
+            "main M\n  JSR(Sub)\n  XIC(a) OTE(q)\nmain N\n  XIC(a) OTE(r)\ncalled Sub\n  XIC(end) END\n",
         ),
         "a . end /a .",
         &[("q", "1 1"), ("r", "1 0")],
@@ -490,6 +515,7 @@ fn timers_and_counters_are_read_at_their_own_pins() {
         instance: Operand::new("T", Span::default()),
         output: "T.Q".into(),
         preset_ms: Some(100),
+        preset_from: None,
     });
     check_program(
         &box_with_pins(timer, &["IN", "R"], "Q"),
@@ -501,6 +527,7 @@ fn timers_and_counters_are_read_at_their_own_pins() {
         instance: Operand::new("C", Span::default()),
         output: "C.QU".into(),
         preset: Some(2),
+        preset_from: None,
     });
     check_program(
         &box_with_pins(counter, &["CU", "CD", "LD"], "QD"),

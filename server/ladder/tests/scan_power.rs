@@ -175,7 +175,7 @@ fn with_networks(networks: Vec<Network>) -> Program {
 /// not switched off. `#` stands for the name of its count.
 fn steering_rung() -> impl Strategy<Value = String> {
     let word = prop::sample::select(vec![
-        "OTE(q)", "JMP(L0)", "JMP(L1)", "RET", "TND", "MCR", "JSR(A)", "JSR(B)",
+        "OTE(q)", "JMP(L0)", "JMP(L1)", "RET", "END", "MCR", "JSR(A)", "JSR(B)",
     ]);
     let label = prop::sample::select(vec!["", "", "", "LBL(L0) ", "LBL(L1) "]);
     let test = prop::sample::select(vec!["", "XIC(a) ", "XIO(a) ", "XIC(b) ", "XIO(b) "]);

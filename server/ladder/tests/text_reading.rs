@@ -43,7 +43,10 @@ fn short(kind: &ElementKind) -> String {
         ElementKind::OneShot(shot) => format!("one-shot {:?}", shot.edge),
         ElementKind::Gate(gate) => format!("gate {gate:?}"),
         ElementKind::Timer(timer) => {
-            format!("{:?} {} {:?}", timer.kind, timer.output, timer.preset_ms)
+            let from = timer.preset_from.as_ref();
+            let preset = from.map(|variable| variable.name.to_string());
+            let preset = preset.unwrap_or_else(|| format!("{:?}", timer.preset_ms));
+            format!("{:?} {} {preset}", timer.kind, timer.output)
         }
         ElementKind::Assign(assignment) => {
             let value = match &assignment.value {
@@ -188,7 +191,7 @@ fn the_output_of_a_timer_is_the_one_that_is_read() {
             "2 Open t3.Q < 1",
             "3 OnDelay T1.DN Some(90000) < 2",
             "4 OffDelay t2.Q Some(250) < 2",
-            "5 Retentive t3.Q None < 2",
+            "5 Retentive t3.Q delay < 2",
         ],
     );
 }

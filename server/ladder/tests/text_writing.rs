@@ -35,6 +35,7 @@ fn a_rung_is_written_as_it_was_read() {
     same("rung: a * (b + /c*d + (e + f)*g) * rise(h) -> v");
     same("rung: (1 + a) * 0 -> v");
     same("rung: a * (level >= -3) * (\"the level\" < 5s) -> v");
+    same("rung: a -> TON(t1, 1m30s), TOF(t2, delay), CTU(c1, 10), CTD(c2, \"how many\"), RTO(t3)");
     same("rung: 1 -> v, /w, set x, reset y, rising z, falling \"the door\"");
     same("rung: a -> x, (b -> y, (c + d -> /z), set z), reset x");
     same("rung label again: a -> jump again, call Doors(b, 3), return, return program, MCR()");

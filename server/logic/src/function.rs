@@ -1,6 +1,7 @@
 use std::collections::BTreeSet;
 
-use biodivine_lib_bdd::{Bdd, BddNode, BddVariable, BddVariableSet};
+use biodivine_lib_bdd::{Bdd, BddNode, BddPointer, BddVariable};
+use rustc_hash::FxHashMap;
 
 use crate::{Atom, AtomId, Atoms, Budget, Expr, Stop};
 
@@ -22,8 +23,11 @@ mod literals;
 pub struct Function {
     /// Atoms the function depends on, ascending; the diagram's variable k is
     /// the k-th of them.
-    support: Vec<AtomId>,
-    diagram: Bdd,
+    pub(crate) support: Vec<AtomId>,
+    /// Nodes in the order of a walk that goes down the high branches first and
+    /// lists a node after all below it: the order that operations leave them
+    /// in, by which equal functions are equal values.
+    pub(crate) diagram: Bdd,
 }
 
 /// An atom or its complement.
@@ -35,29 +39,35 @@ pub struct Literal {
     pub positive: bool,
 }
 
+/// As long as no more atoms are kept, to try all their values is quicker than
+/// to quantify all others away.
+const FEW_KEPT: usize = 4;
+
 /// Diagrams of this library hold at most this many variables.
 const MOST_VARIABLES: usize = u16::MAX as usize - 2;
 
 impl Function {
     /// The function that is always `value`.
     pub fn constant(value: bool) -> Self {
-        let none = BddVariableSet::new_anonymous(0);
+        let nodes = constants(0);
         Self {
             support: Vec::new(),
-            diagram: if value {
-                none.mk_true()
-            } else {
-                none.mk_false()
-            },
+            diagram: checked(if value { &nodes } else { &nodes[..1] }),
         }
     }
 
     /// The function that is `atom`, or its complement.
     pub fn literal(atom: AtomId, positive: bool) -> Self {
-        let one = BddVariableSet::new_anonymous(1);
+        let mut nodes = constants(1);
+        let ends = [!positive, positive].map(BddPointer::from_bool);
+        nodes.push(BddNode::mk_node(
+            BddVariable::from_index(0),
+            ends[0],
+            ends[1],
+        ));
         Self {
             support: vec![atom],
-            diagram: one.mk_literal(BddVariable::from_index(0), positive),
+            diagram: checked(&nodes),
         }
     }
 
@@ -185,9 +195,8 @@ impl Function {
         match self.support.binary_search(&atom) {
             Err(_) => self.clone(),
             Ok(at) => {
-                let variable = BddVariable::from_index(at);
-                let diagram = self.diagram.var_restrict(variable, value);
-                Self::shrunk(&self.support, diagram)
+                let nodes = fixed(&self.diagram, BddVariable::from_index(at), value);
+                Self::of_listed(&self.support, nodes)
             }
         }
     }
@@ -211,29 +220,29 @@ impl Function {
     /// The function with every atom but those of `keep` quantified away: what
     /// the function says about `keep` alone.
     pub fn project(&self, keep: &BTreeSet<AtomId>, budget: &Budget) -> Result<Self, Stop> {
+        let support = self.support.iter().copied();
         let (kept, away): (Vec<AtomId>, Vec<AtomId>) =
-            self.support.iter().partition(|atom| keep.contains(atom));
-        let is_split_cheaper = 1_usize
-            .checked_shl(kept.len() as u32)
-            .is_some_and(|parts| parts <= away.len());
-        if is_split_cheaper {
-            return self.split(&kept, budget);
+            support.partition(|atom| keep.contains(atom));
+        if !away.is_empty() && kept.len() <= FEW_KEPT {
+            return self.projected(&kept, budget);
         }
         away.into_iter()
             .try_fold(self.clone(), |function, atom| function.exists(atom, budget))
     }
 
-    /// The projection on `kept`, one value of these after the other: what is
-    /// left of the function then can hold or cannot.
-    fn split(&self, kept: &[AtomId], budget: &Budget) -> Result<Self, Stop> {
+    /// The same for a few atoms, all that are kept of the support: it can be
+    /// true for some of their values exactly if what these leave is not false.
+    fn projected(&self, kept: &[AtomId], budget: &Budget) -> Result<Self, Stop> {
         let Some((&atom, rest)) = kept.split_first() else {
             return Ok(Self::constant(!self.is_false()));
         };
-        let low = self.restrict(atom, false).split(rest, budget)?;
-        let high = self.restrict(atom, true).split(rest, budget)?;
-        let atom = Self::atom(atom);
-        atom.and(&high, budget)?
-            .or(&low.and_not(&atom, budget)?, budget)
+        let low = self.restrict(atom, false).projected(rest, budget)?;
+        let high = self.restrict(atom, true).projected(rest, budget)?;
+        if low == high {
+            return Ok(low);
+        }
+        let low = low.and(&Self::literal(atom, false), budget)?;
+        low.or(&high.and(&Self::atom(atom), budget)?, budget)
     }
 
     /// Whether raising `atom` from 0 to 1 never makes the function fall.
@@ -272,11 +281,6 @@ impl Function {
         })
     }
 
-    /// The first atom of the support, the root of the diagram.
-    pub(crate) fn top(&self) -> Option<AtomId> {
-        self.support.first().copied()
-    }
-
     fn combine(
         &self,
         other: &Self,
@@ -307,56 +311,151 @@ impl Function {
             }
             place
         });
-        renumbered(&self.diagram, &places.collect::<Vec<_>>(), support.len())
+        let places: Vec<usize> = places.collect();
+        let mut nodes = self.diagram.clone().to_nodes();
+        renumber(&mut nodes, &places, support.len());
+        checked(&nodes)
     }
 
     /// A function of `diagram` over `support`, less the atoms that it does
     /// not depend on.
     fn shrunk(support: &[AtomId], diagram: Bdd) -> Self {
-        if diagram.is_true() || diagram.is_false() {
-            return Self::constant(diagram.is_true());
+        let mut needed = vec![false; support.len()];
+        for at in 2..diagram.size() {
+            needed[diagram.var_of(BddPointer::from_index(at)).to_index()] = true;
         }
-        let needed = diagram.support_set();
-        if needed.len() == support.len() {
+        if diagram.size() > 2 && needed.iter().all(|needed| *needed) {
             return Self {
                 support: support.to_vec(),
                 diagram,
             };
         }
+        Self::of_listed(support, diagram.to_nodes())
+    }
+
+    /// The same of the nodes of a diagram.
+    fn of_listed(support: &[AtomId], mut nodes: Vec<BddNode>) -> Self {
+        if nodes.len() <= 2 {
+            return Self::constant(nodes.len() == 2);
+        }
+        let mut needed = vec![false; support.len()];
+        for node in &nodes[2..] {
+            needed[node.var.to_index()] = true;
+        }
         let mut places = vec![0; support.len()];
-        let mut kept = Vec::with_capacity(needed.len());
+        let mut kept = Vec::with_capacity(support.len());
         for (at, atom) in support.iter().enumerate() {
-            if needed.contains(&BddVariable::from_index(at)) {
+            if needed[at] {
                 places[at] = kept.len();
                 kept.push(*atom);
             }
         }
+        renumber(&mut nodes, &places, kept.len());
         Self {
-            diagram: renumbered(&diagram, &places, kept.len()),
+            diagram: checked(&nodes),
             support: kept,
         }
     }
+
+    /// The function of the last of `nodes`: each its atom and where its low
+    /// and high branches lead, counted from 2 after the constants. They must
+    /// stand in the order of a diagram.
+    pub(crate) fn of_nodes(nodes: &[(AtomId, usize, usize)]) -> Result<Self, Stop> {
+        let mut support: Vec<AtomId> = nodes.iter().map(|(atom, _, _)| *atom).collect();
+        support.sort_unstable();
+        support.dedup();
+        if support.len() > MOST_VARIABLES {
+            return Err(Stop::TooLarge);
+        }
+        let place = |atom: AtomId| support.partition_point(|other| *other < atom);
+        let mut listed = constants(support.len());
+        listed.extend(nodes.iter().map(|&(atom, low, high)| {
+            BddNode::mk_node(
+                BddVariable::from_index(place(atom)),
+                BddPointer::from_index(low),
+                BddPointer::from_index(high),
+            )
+        }));
+        Ok(Self {
+            diagram: checked(&listed),
+            support,
+        })
+    }
 }
 
-/// The diagram with variable k renamed to `places[k]`, which must keep the
-/// order, over `count` variables.
-fn renumbered(diagram: &Bdd, places: &[usize], count: usize) -> Bdd {
-    let count = count as u16;
-    let nodes: Vec<BddNode> = diagram
-        .clone()
-        .to_nodes()
-        .into_iter()
-        .enumerate()
-        .map(|(at, node)| match at {
-            0 => BddNode::mk_zero(count),
-            1 => BddNode::mk_one(count),
-            _ => BddNode {
-                var: BddVariable::from_index(places[node.var.to_index()]),
-                ..node
-            },
-        })
-        .collect();
-    Bdd::from_nodes(&nodes).expect("renaming that keeps the order keeps a diagram valid")
+/// The first two nodes of every diagram over `count` variables.
+fn constants(count: usize) -> Vec<BddNode> {
+    vec![
+        BddNode::mk_zero(count as u16),
+        BddNode::mk_one(count as u16),
+    ]
+}
+
+/// The nodes of a diagram with a variable replaced by a constant, in the order
+/// that operations leave nodes in: a walk that goes down the high branches
+/// first and lists a node after all below it. (The library's own restriction
+/// goes down the low branches first, so that equal functions would not be
+/// equal values.)
+fn fixed(diagram: &Bdd, variable: BddVariable, value: bool) -> Vec<BddNode> {
+    let mut nodes = constants(diagram.num_vars().into());
+    let mut known: FxHashMap<BddNode, BddPointer> = FxHashMap::default();
+    let mut becomes: Vec<Option<BddPointer>> = vec![None; diagram.size()];
+    for (constant, pointer) in becomes
+        .iter_mut()
+        .zip([BddPointer::zero(), BddPointer::one()])
+    {
+        *constant = Some(pointer);
+    }
+    let root = diagram.root_pointer();
+    let mut open = vec![root];
+    while let Some(&here) = open.last() {
+        if becomes[here.to_index()].is_some() {
+            open.pop();
+            continue;
+        }
+        let mut low = diagram.low_link_of(here);
+        let mut high = diagram.high_link_of(here);
+        let own = diagram.var_of(here);
+        if own == variable {
+            (low, high) = if value { (high, high) } else { (low, low) };
+        }
+        match (becomes[low.to_index()], becomes[high.to_index()]) {
+            (_, None) => open.push(high),
+            (None, _) => open.push(low),
+            (Some(low), Some(high)) => {
+                let place = if low == high {
+                    low
+                } else {
+                    let node = BddNode::mk_node(own, low, high);
+                    *known.entry(node).or_insert_with(|| {
+                        nodes.push(node);
+                        BddPointer::from_index(nodes.len() - 1)
+                    })
+                };
+                becomes[here.to_index()] = Some(place);
+                open.pop();
+            }
+        }
+    }
+    if becomes[root.to_index()] == Some(BddPointer::zero()) {
+        nodes.truncate(1);
+    }
+    nodes
+}
+
+/// Renames variable k of a diagram's nodes to `places[k]`, which must keep the
+/// order, of `count` variables.
+fn renumber(nodes: &mut [BddNode], places: &[usize], count: usize) {
+    for node in nodes.iter_mut().skip(2) {
+        node.var = BddVariable::from_index(places[node.var.to_index()]);
+    }
+    for (node, constant) in nodes.iter_mut().zip(constants(count)) {
+        *node = constant;
+    }
+}
+
+fn checked(nodes: &[BddNode]) -> Bdd {
+    Bdd::from_nodes(nodes).expect("nodes that come from a diagram, in its order, make one")
 }
 
 fn united(a: &[AtomId], b: &[AtomId]) -> Vec<AtomId> {

@@ -65,6 +65,27 @@ proptest! {
     }
 
     #[test]
+    fn a_constant_in_place_of_an_atom_gives_the_same_value_however_it_is_reached(
+        expr in expressions(),
+        at in 0..NAMES.len(),
+        value in any::<bool>(),
+    ) {
+        let (mut atoms, budget) = (atoms(), Budget::default());
+        let function = Function::of(&expr, &mut atoms, &budget).unwrap();
+        let mut leaf = |atom: &logic::Atom| match atoms.find(atom) {
+            Some(id) if id.0 as usize == at => Function::constant(value),
+            Some(id) => Function::atom(id),
+            None => Function::constant(false),
+        };
+        let written = Function::build(&expr, &mut leaf, &budget).unwrap();
+        let restricted = function.restrict(logic::AtomId(at as u32), value);
+        prop_assert_eq!(&restricted, &written);
+        // And what lies between a function and itself is that function.
+        let between = written.simplified_within(&restricted, &budget).unwrap();
+        prop_assert_eq!(between, written);
+    }
+
+    #[test]
     fn products_are_irredundant_and_prime(expr in expressions()) {
         let (mut atoms, budget) = (atoms(), Budget::default());
         let function = Function::of(&expr, &mut atoms, &budget).unwrap();
@@ -184,4 +205,40 @@ fn a_problem_says_what_was_expected_and_what_stands_there() {
         problem("a*\"b"),
         "expected a name, `/` or `(`, found a quote that does not end on its line"
     );
+}
+
+/// `a0*b0 + a1*b1 + ...` with all of the `a` before all of the `b`: the worst
+/// order, in which the diagram doubles with every pair.
+fn pairs(count: u32, budget: &Budget) -> Function {
+    let atom = |at| Function::atom(logic::AtomId(at));
+    (0..count).fold(Function::constant(false), |sum, at| {
+        let pair = atom(at).and(&atom(count + at), budget).unwrap();
+        sum.or(&pair, budget).unwrap()
+    })
+}
+
+#[test]
+fn a_large_diagram_with_a_short_sum_is_written() {
+    let budget = Budget::default();
+    let function = pairs(11, &budget);
+    assert!(function.nodes() > 4_000);
+    assert_eq!(function.products(&budget).map(|sum| sum.len()), Ok(11));
+}
+
+#[test]
+fn what_needs_more_products_than_allowed_is_too_large() {
+    let budget = Budget {
+        products: 10,
+        ..Budget::default()
+    };
+    let sum = pairs(11, &budget).products(&budget);
+    assert_eq!(sum, Err(logic::Stop::TooLarge));
+}
+
+#[test]
+fn no_sum_is_written_after_a_cancel() {
+    let budget = Budget::default();
+    let function = pairs(3, &budget);
+    budget.cancel.cancel();
+    assert_eq!(function.products(&budget), Err(logic::Stop::Cancelled));
 }

@@ -5,6 +5,7 @@ use ladder::{Class, Program, Role};
 use logic::{AtomId, Budget, Function, Name};
 
 use crate::conditions::{Conditions, Variable, conditions};
+use crate::conversion::Sums;
 use crate::groups::{Group, groups};
 use crate::registers::{Register, registers};
 use crate::states::{States, states};
@@ -28,6 +29,8 @@ pub struct Analysis {
     /// Atoms that the condition of another variable, a timer or a number
     /// depends on.
     read: HashSet<AtomId>,
+    /// What conversions have put into words.
+    pub(crate) sums: Sums,
 }
 
 /// Recovers everything from `program`. When `budget` is cancelled the answer
@@ -41,6 +44,7 @@ pub fn analyse(program: &Arc<Program>, budget: &Budget) -> Analysis {
     Analysis {
         program: Arc::clone(program),
         read: atoms_read(&conditions),
+        sums: Sums::default(),
         conditions,
         states,
         registers,

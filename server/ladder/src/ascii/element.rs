@@ -262,12 +262,15 @@ fn box_pins(found: &DrawnBox, words: &mut Beside<'_>) -> Vec<Pin> {
 fn timer(kind: TimerKind, found: &DrawnBox, pins: &[Pin], words: &mut Beside<'_>) -> ElementKind {
     let instance = words.above();
     let preset = preset(pins, &["PT", "PRE"], words);
+    let preset_ms = preset
+        .as_ref()
+        .and_then(|preset| duration(&preset.name))
+        .and_then(|preset| u64::try_from(preset).ok());
     ElementKind::Timer(Timer {
         kind,
         output: output(&instance, found),
-        preset_ms: preset
-            .and_then(|preset| duration(&preset.name))
-            .and_then(|preset| u64::try_from(preset).ok()),
+        preset_ms,
+        preset_from: preset.filter(|_| preset_ms.is_none()),
         instance,
     })
 }
@@ -279,11 +282,13 @@ fn counter(
     words: &mut Beside<'_>,
 ) -> ElementKind {
     let instance = words.above();
-    let preset = preset(pins, &["PV", "PRE"], words);
+    let named = preset(pins, &["PV", "PRE"], words);
+    let preset = named.as_ref().and_then(|preset| preset.name.parse().ok());
     ElementKind::Counter(Counter {
         kind,
         output: output(&instance, found),
-        preset: preset.and_then(|preset| preset.name.parse().ok()),
+        preset,
+        preset_from: named.filter(|_| preset.is_none()),
         instance,
     })
 }
@@ -294,28 +299,19 @@ fn output(instance: &Operand, found: &DrawnBox) -> Name {
     format!("{}.{pin}", instance.name).into()
 }
 
-/// The preset among the words at a box. The others, and a preset that is no
-/// constant, have no place in the model and are reported.
+/// The preset among the words at a box. The others have no place in the model
+/// and are reported.
 fn preset(pins: &[Pin], names: &[&str], words: &mut Beside<'_>) -> Option<Operand> {
     let mut preset = None;
     for pin in pins {
         let (Some(name), Some(operand)) = (&pin.name, &pin.operand) else {
             continue;
         };
-        let is_preset = names.contains(&&*name.to_ascii_uppercase());
-        let is_constant = duration(&operand.name).is_some() || operand.name.parse::<i64>().is_ok();
-        if is_preset && is_constant {
+        if names.contains(&&*name.to_ascii_uppercase()) {
             preset = Some(operand.clone());
             continue;
         }
-        let message = if is_preset {
-            format!(
-                "the preset `{}` is no constant, so it is not known",
-                operand.name
-            )
-        } else {
-            format!("`{}` at pin `{name}` is not read", operand.name)
-        };
+        let message = format!("`{}` at pin `{name}` is not read", operand.name);
         words.diagnostics.push(
             Diagnostic::new(codes::LADDER_SYNTAX, operand.span, message)
                 .help("give times as `500ms` or `T#5s`; read other outputs by name, `T1.ET`"),

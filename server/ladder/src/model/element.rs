@@ -47,9 +47,12 @@ pub enum ElementKind {
     Jump(Operand),
     /// Where a jump arrives (`LBL`); passes power on.
     Label(Operand),
-    /// Leaves the routine while powered (`RET`, `TND` leaves the program).
+    /// Leaves the routine while powered: `RET`, and `TND`, which Rockwell's
+    /// reference calls an end of the routine too ("if the TND instruction is in
+    /// a subroutine, control returns to the calling routine").
     Return {
-        /// Whether the whole program ends for this scan (`TND`).
+        /// Whether the whole program ends for this scan, whatever called the
+        /// routine.
         program: bool,
     },
     /// Begins or ends a zone under master control (`MCR`, master relay): while
@@ -176,6 +179,9 @@ pub struct Timer {
     pub output: Name,
     /// Preset time in milliseconds, where the source gives a constant.
     pub preset_ms: Option<u64>,
+    /// The variable that holds the preset, where the source names one: read
+    /// each time the timer is solved.
+    pub preset_from: Option<Operand>,
 }
 
 /// How a counter counts.
@@ -202,6 +208,9 @@ pub struct Counter {
     pub output: Name,
     /// Preset, where the source gives a constant.
     pub preset: Option<i64>,
+    /// The variable that holds the preset, where the source names one: read
+    /// each time the counter is solved.
+    pub preset_from: Option<Operand>,
 }
 
 /// A value written to a variable.
@@ -331,6 +340,8 @@ impl ElementKind {
                 Value::Term { reads, .. } => reads.iter().collect(),
             },
             Self::Call(call) => call.arguments.iter().collect(),
+            Self::Timer(timer) => timer.preset_from.iter().collect(),
+            Self::Counter(counter) => counter.preset_from.iter().collect(),
             Self::Block(block) => block
                 .pins
                 .iter()

@@ -30,6 +30,8 @@ impl<'a> Lowering<'_, 'a> {
             output: self.member(&instance, "Q").name,
             instance: instance.clone(),
             preset_ms,
+            // A variable is written to the input before the block is solved.
+            preset_from: None,
         });
         let element = self.builder.add(kind, node.span);
         self.join_pins(arrivals, element);
@@ -89,6 +91,7 @@ impl<'a> Lowering<'_, 'a> {
             output: self.member(&instance, output).name,
             instance: instance.clone(),
             preset,
+            preset_from: None,
         });
         let element = self.builder.add(counter, node.span);
         self.join_pins(arrivals, element);

@@ -95,6 +95,7 @@ impl Drawing<'_, '_, '_> {
             kind,
             output: self.done_bit(it, &instance),
             preset_ms: self.preset(it).and_then(|ms| u64::try_from(ms).ok()),
+            preset_from: None,
             instance,
         })
     }
@@ -105,6 +106,7 @@ impl Drawing<'_, '_, '_> {
             kind,
             output: self.done_bit(it, &instance),
             preset: self.preset(it),
+            preset_from: None,
             instance,
         })
     }

@@ -26,6 +26,7 @@ pub(super) fn prepare(counter: &Counter, state: &mut State) {
 pub(super) fn solve(counter: &Counter, power: bool, inputs: &Inputs<'_>, state: &mut State) {
     let name = &counter.instance.name;
     let member = |member: &str| format!("{name}.{member}");
+    state.copy_preset(counter.preset_from.as_ref(), name);
     let preset = state.read(&member("PRE")).integer();
     let mut count = state.read(&member("ACC")).integer();
     let mut rises = |pin: &str, signal: bool| {

@@ -14,7 +14,7 @@ use logic::Name;
 use super::Datum;
 use super::datum::constant;
 use super::term::evaluate;
-use crate::{Declarations, Program};
+use crate::{Declarations, Operand, Program};
 
 /// The type of a declared variable, as far as it matters here.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -90,6 +90,13 @@ impl State {
         match self.values.get(text) {
             Some(value) => Some(*value),
             None => evaluate(text, &|name| self.read(name)),
+        }
+    }
+
+    /// Gives the timer or counter `instance` the preset that a variable holds.
+    pub(super) fn copy_preset(&mut self, from: Option<&Operand>, instance: &str) {
+        if let Some(preset) = from.and_then(|variable| self.compute(&variable.name)) {
+            self.write(&format!("{instance}.PRE"), preset);
         }
     }
 

@@ -44,6 +44,7 @@ pub(super) fn prepare(timer: &Timer, state: &mut State) {
 pub(super) fn solve(timer: &Timer, input: bool, reset: bool, clock: &mut Clock, state: &mut State) {
     let name = &timer.instance.name;
     let passed = clock.since(name);
+    state.copy_preset(timer.preset_from.as_ref(), name);
     let mut face = Face::read(name, state);
     if reset {
         face = Face {

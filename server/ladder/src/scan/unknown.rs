@@ -39,8 +39,14 @@ fn of_network(network: &Network, state: &State, names: &mut BTreeSet<Name>) {
                 Value::Term { text, .. } => term(names, text),
                 Value::Constant(_) | Value::Increment(_) => {}
             },
-            ElementKind::Timer(timer) => preset(&timer.instance, state, names),
-            ElementKind::Counter(counter) => preset(&counter.instance, state, names),
+            ElementKind::Timer(timer) => match &timer.preset_from {
+                Some(variable) => term(names, &variable.name),
+                None => preset(&timer.instance, state, names),
+            },
+            ElementKind::Counter(counter) => match &counter.preset_from {
+                Some(variable) => term(names, &variable.name),
+                None => preset(&counter.instance, state, names),
+            },
             ElementKind::Call(call) => {
                 names.extend(call.arguments.iter().map(|operand| operand.name.clone()));
             }

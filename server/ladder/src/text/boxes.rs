@@ -5,7 +5,7 @@ use logic::notation::{Token, TokenKind, milliseconds};
 use source::Span;
 
 use super::findings::{Refusal, syntax};
-use super::syntax::{Argument, OutputKind, Term};
+use super::syntax::{Argument, OutputKind, Preset, Term};
 use crate::{CounterKind, TimerKind};
 
 /// The box `name(handed)`, written at `whole`. Known names are read in
@@ -61,11 +61,13 @@ fn timer(
     };
     match preset.tokens.as_slice() {
         [time] if time.kind == TokenKind::Time => {
-            let milliseconds = milliseconds(time.text(text));
-            Ok(OutputKind::Timer(kind, instance, milliseconds))
+            let preset = milliseconds(time.text(text)).map(Preset::Constant);
+            Ok(OutputKind::Timer(kind, instance, preset))
         }
-        // The time is in a variable: known when the program runs.
-        [name] if is_name(name) => Ok(OutputKind::Timer(kind, instance, None)),
+        [name] if is_name(name) => {
+            let preset = Some(Preset::Variable(*name));
+            Ok(OutputKind::Timer(kind, instance, preset))
+        }
         _ => Err(syntax(
             preset.span,
             "expected a time such as `5s`, `250ms` or `1m30s`, or the variable that holds it",
@@ -85,9 +87,15 @@ fn counter(
         return Ok(OutputKind::Counter(kind, instance, None));
     };
     match preset.tokens.as_slice() {
-        [name] if is_name(name) => Ok(OutputKind::Counter(kind, instance, None)),
+        [name] if is_name(name) => {
+            let preset = Some(Preset::Variable(*name));
+            Ok(OutputKind::Counter(kind, instance, preset))
+        }
         tokens => match integer(text, tokens) {
-            Some(number) => Ok(OutputKind::Counter(kind, instance, Some(number))),
+            Some(number) => {
+                let preset = Some(Preset::Constant(number));
+                Ok(OutputKind::Counter(kind, instance, preset))
+            }
             None => Err(syntax(
                 preset.span,
                 "expected a whole number, or the variable that holds it",

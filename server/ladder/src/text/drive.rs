@@ -8,7 +8,9 @@ use source::{Diagnostic, Span, codes};
 use super::boxes::{integer, is_name};
 use super::network::Drawing;
 use super::spacing::term_text;
-use super::syntax::{Argument, Condition, Leg, OutputKind, OutputText, Pin as PinText, Term};
+use super::syntax::{
+    Argument, Condition, Leg, OutputKind, OutputText, Pin as PinText, Preset, Term,
+};
 use crate::{
     Assignment, Block, Call, Coil, Counter, ElementKind, Familiarity, Operand, Pin, PinDirection,
     Timer, Value,
@@ -67,22 +69,26 @@ fn element(drawing: &mut Drawing<'_, '_>, output: &OutputText) -> Option<Element
             })
         }
         OutputKind::Return { program } => ElementKind::Return { program: *program },
-        OutputKind::Timer(kind, instance, preset_ms) => {
+        OutputKind::Timer(kind, instance, preset) => {
             let (instance, output) = instance_and_output(drawing, *instance);
+            let (preset_ms, preset_from) = preset_of(drawing, *preset);
             ElementKind::Timer(Timer {
                 kind: *kind,
                 instance,
                 output,
-                preset_ms: *preset_ms,
+                preset_ms,
+                preset_from,
             })
         }
         OutputKind::Counter(kind, instance, preset) => {
             let (instance, output) = instance_and_output(drawing, *instance);
+            let (preset, preset_from) = preset_of(drawing, *preset);
             ElementKind::Counter(Counter {
                 kind: *kind,
                 instance,
                 output,
-                preset: *preset,
+                preset,
+                preset_from,
             })
         }
         OutputKind::Reset(instance) => ElementKind::ResetBox(drawing.operand(*instance)),
@@ -97,6 +103,18 @@ fn instance_and_output(drawing: &mut Drawing<'_, '_>, instance: Token) -> (Opera
     let operand = drawing.operand(instance);
     let output = drawing.names.output_of(&operand.name, spelled);
     (operand, output)
+}
+
+/// A preset as its constant and the variable that holds it: one of them.
+fn preset_of<T>(
+    drawing: &mut Drawing<'_, '_>,
+    preset: Option<Preset<T>>,
+) -> (Option<T>, Option<Operand>) {
+    match preset {
+        Some(Preset::Constant(value)) => (Some(value), None),
+        Some(Preset::Variable(name)) => (None, Some(drawing.operand(name))),
+        None => (None, None),
+    }
 }
 
 /// What `target := term` writes.

@@ -65,9 +65,9 @@ pub(super) enum OutputKind {
         program: bool,
     },
     /// `TON(t1, 5s)`
-    Timer(TimerKind, Token, Option<u64>),
+    Timer(TimerKind, Token, Option<Preset<u64>>),
     /// `CTU(c1, 10)`
-    Counter(CounterKind, Token, Option<i64>),
+    Counter(CounterKind, Token, Option<Preset<i64>>),
     /// `RES(t1)`
     Reset(Token),
     /// `MCR()`
@@ -78,6 +78,15 @@ pub(super) enum OutputKind {
     Leg(Leg),
     /// Something that is no output.
     NotRead,
+}
+
+/// How far a timer or counter runs.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Preset<T> {
+    /// `5s`, `10`
+    Constant(T),
+    /// `delay`: what the variable holds when the program runs.
+    Variable(Token),
 }
 
 /// A value, or an arithmetic term of values.

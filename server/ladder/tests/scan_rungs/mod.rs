@@ -199,13 +199,18 @@ fn kind(name: &str, operands: &[Operand]) -> ElementKind {
             right: operand(1),
         })
     };
+    let variable = |at: usize| {
+        let operand = operands.get(at).cloned();
+        operand.filter(|operand| operand.name.parse::<i64>().is_err())
+    };
     let timer = |kind| {
         let iec = name.ends_with('Q');
         ElementKind::Timer(Timer {
             kind,
             instance: operand(0),
             output: format!("{}.{}", operand(0).name, if iec { "Q" } else { "DN" }).into(),
-            preset_ms: operands.get(1).map(|preset| preset.name.parse().unwrap()),
+            preset_ms: operands.get(1).and_then(|preset| preset.name.parse().ok()),
+            preset_from: variable(1),
         })
     };
     let counter = |kind| {
@@ -214,7 +219,8 @@ fn kind(name: &str, operands: &[Operand]) -> ElementKind {
             kind,
             instance: operand(0),
             output: format!("{}.{}", operand(0).name, if iec { "Q" } else { "DN" }).into(),
-            preset: operands.get(1).map(|preset| preset.name.parse().unwrap()),
+            preset: operands.get(1).and_then(|preset| preset.name.parse().ok()),
+            preset_from: variable(1),
         })
     };
     let assign = |target: Operand, value: Value| {
@@ -257,7 +263,8 @@ fn kind(name: &str, operands: &[Operand]) -> ElementKind {
         "JMP" => ElementKind::Jump(operand(0)),
         "LBL" => ElementKind::Label(operand(0)),
         "RET" => ElementKind::Return { program: false },
-        "TND" => ElementKind::Return { program: true },
+        "TND" => ElementKind::Return { program: false },
+        "END" => ElementKind::Return { program: true },
         "MCR" => ElementKind::Zone,
         "EQU" => compare(Relation::Equal),
         "GRT" => compare(Relation::Greater),

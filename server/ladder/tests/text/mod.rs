@@ -121,8 +121,14 @@ fn without_places(kind: &mut ElementKind) {
             clear(&mut comparison.right);
         }
         ElementKind::OneShot(shot) => shot.memory.iter_mut().for_each(clear),
-        ElementKind::Timer(timer) => clear(&mut timer.instance),
-        ElementKind::Counter(counter) => clear(&mut counter.instance),
+        ElementKind::Timer(timer) => {
+            clear(&mut timer.instance);
+            timer.preset_from.iter_mut().for_each(clear);
+        }
+        ElementKind::Counter(counter) => {
+            clear(&mut counter.instance);
+            counter.preset_from.iter_mut().for_each(clear);
+        }
         ElementKind::Assign(assignment) => {
             clear(&mut assignment.target);
             match &mut assignment.value {

@@ -29,11 +29,14 @@ fn is_coil_or_copy(write: &Write) -> bool {
 
 fn variable(atom: AtomId, writes: Vec<Write>, walk: &mut Walk<'_>) -> Variable {
     let next = next_value(atom, &writes, Skipping::Keeps, walk.budget);
-    let always = next_value(atom, &writes, Skipping::Never, walk.budget);
     let holds = |next: &Result<Function, Stop>| {
         next.as_ref()
             .is_ok_and(|function| function.depends_on(atom))
     };
+    let is_skipped = |write: &Write| write.solved.as_ref().is_ok_and(|it| !it.is_true());
+    let kept_when_skipped = holds(&next)
+        && writes.iter().any(is_skipped)
+        && !holds(&next_value(atom, &writes, Skipping::Never, walk.budget));
     let closed_contacts = writes
         .iter()
         .flat_map(|write| write.closed_contacts.iter().copied())
@@ -45,7 +48,7 @@ fn variable(atom: AtomId, writes: Vec<Write>, walk: &mut Walk<'_>) -> Variable {
             other => other.to_string().into(),
         },
         atom,
-        kept_when_skipped: holds(&next) && !holds(&always),
+        kept_when_skipped,
         closed_contacts: closed_contacts.into_iter().collect(),
         next,
         writes,
@@ -78,12 +81,8 @@ fn next_value(
             rung = Some(here);
             before_rung = value.clone();
         }
-        let seen = if write.sees_earlier {
-            &value
-        } else {
-            &before_rung
-        };
-        let guard = write.guard.clone()?.substitute(atom, seen, budget)?;
+        let guard = write.effective.as_ref().unwrap_or(&write.guard);
+        let guard = guard.clone()?.substitute(atom, &before_rung, budget)?;
         let written = apply(&write.kind, &guard, &write.zone.clone()?, &value, budget)?;
         value = match skipping {
             Skipping::Never => written,
@@ -99,7 +98,7 @@ fn next_value(
 }
 
 /// The value after one write that is solved.
-fn apply(
+pub(super) fn apply(
     kind: &WriteKind,
     guard: &Function,
     zone: &Function,
@@ -124,5 +123,37 @@ fn apply(
         WriteKind::Bit(true) => value.or(&guard.and(zone, budget)?, budget),
         WriteKind::Bit(false) => value.and_not(&guard.and(zone, budget)?, budget),
         WriteKind::BitOf(source) | WriteKind::Unknown(source) => chosen(&Function::atom(*source)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use logic::{Budget, notation};
+
+    use crate::conditions::conditions;
+
+    /// The value of `q` after a scan of one rung.
+    fn next(rung: &str) -> String {
+        let program = ladder::read(format!("program P\n\nrung: {rung}\n").as_bytes()).program;
+        let (budget, q) = (Budget::default(), "q");
+        let conditions = conditions(&program, &budget);
+        let variable = conditions.find(q).expect("a coil drives it");
+        let next = variable.next.as_ref().expect("a small condition");
+        notation::write(&conditions.expr(next, &budget).expect("a small sum"))
+    }
+
+    #[test]
+    fn a_leg_sees_what_the_legs_above_it_have_written() {
+        assert_eq!(next("a -> q, (b*/q -> set q)"), "a");
+        assert_eq!(next("a -> set q, (b*q -> reset q)"), "q*/a + a*/b");
+    }
+
+    #[test]
+    fn a_contact_before_the_first_leg_and_one_behind_it_see_different_values() {
+        assert_eq!(next("/q -> set q, (q -> reset q)"), "q");
+        assert_eq!(
+            next("q -> reset q, (a*/q -> set q), (b*q -> reset q)"),
+            "q*a*/b"
+        );
     }
 }

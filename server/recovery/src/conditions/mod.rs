@@ -20,6 +20,7 @@
 mod fold;
 mod naming;
 mod power;
+mod solving;
 mod timers;
 mod writes;
 

@@ -1,6 +1,6 @@
 //! From a network to the conditions under which each element gets power.
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 
 use ladder::scan::{own_atom, pin_atom};
 use ladder::{
@@ -58,6 +58,15 @@ type Input<'n> = (&'n Port, Result<Function, Stop>);
 /// The powers of `network`, in one pass over its elements: a port is on when
 /// any of its wires is, an element hands on what its kind makes of that.
 pub fn powers(network: &Network, walk: &mut Walk<'_>) -> Powers {
+    powers_seeing(&Seen::new(), network, walk)
+}
+
+/// What contacts see, by their places in the network, where that is not the
+/// value of their variable before the rung: an earlier leg has written it.
+pub(super) type Seen = HashMap<NodeIndex, Result<Function, Stop>>;
+
+/// The same where some contacts see what the rung itself has written.
+pub(super) fn powers_seeing(seen: &Seen, network: &Network, walk: &mut Walk<'_>) -> Powers {
     let mut powers = Powers {
         arriving: Vec::with_capacity(network.len()),
         passing: Vec::with_capacity(network.len()),
@@ -72,7 +81,10 @@ pub fn powers(network: &Network, walk: &mut Walk<'_>) -> Powers {
             }
         }
         let power = arriving(&element.kind, &inputs, walk.budget);
-        let passing = passed(network, at, &power, &inputs, walk);
+        let passing = match seen.get(&at) {
+            Some(value) => contact(&element.kind, value, &power, walk.budget),
+            None => passed(network, at, &power, &inputs, walk),
+        };
         powers.arriving.push(power);
         powers.passing.push(passing);
     }
@@ -142,6 +154,22 @@ fn carried(
     match wire.edge {
         None => Ok(power),
         Some(edge) => edge_of(&power, edge, walk),
+    }
+}
+
+/// What leaves a contact whose variable has a value of its own there.
+fn contact(
+    kind: &ElementKind,
+    value: &Result<Function, Stop>,
+    power: &Result<Function, Stop>,
+    budget: &Budget,
+) -> Result<Function, Stop> {
+    let (power, value) = (power.clone()?, value.clone()?);
+    match kind {
+        ElementKind::Contact(contact) if contact.kind == ContactKind::Closed => {
+            power.and_not(&value, budget)
+        }
+        _ => power.and(&value, budget),
     }
 }
 

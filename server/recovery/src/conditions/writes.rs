@@ -3,16 +3,17 @@
 use std::collections::{BTreeSet, HashMap};
 
 use ladder::{
-    Assignment, CoilKind, ContactKind, Edge, ElementKind, Network, PinDirection, Program, Rung,
-    Value, flow,
+    Assignment, CoilKind, ContactKind, Edge, ElementKind, Network, PinDirection, Program, Value,
+    flow,
 };
 use logic::{Atom, AtomId, Function, Name, Stop};
 use petgraph::graph::NodeIndex;
 use petgraph::visit::{Dfs, Reversed};
 use source::Span;
 
-use super::power::edge_of;
-use super::{Powers, TimerLaw, Walk, powers};
+use super::power::{edge_of, powers_seeing};
+use super::solving::Solving;
+use super::{Powers, TimerLaw, Walk};
 
 /// Where an element stands in its program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -57,9 +58,10 @@ pub struct Write {
     pub span: Span,
     /// Coils that stand as normally closed contacts before it.
     pub closed_contacts: BTreeSet<AtomId>,
-    /// Whether a contact of the variable before it in the same rung is solved
-    /// after all earlier writes of that rung, and so sees what they wrote.
-    pub sees_earlier: bool,
+    /// Where contacts of the variable before it see what an earlier write on
+    /// the same rung has written: the guard with that in their place, over the
+    /// value before the rung.
+    pub effective: Option<Result<Function, Stop>>,
 }
 
 /// One write of a number.
@@ -109,21 +111,22 @@ pub(super) fn collect(program: &Program, walk: &mut Walk<'_>) -> Found {
 
 /// What an element does, before words and their bits are told apart: which
 /// bits of a word matter is known only when all rungs have been seen.
-enum Effect {
+pub(super) enum Effect {
     Coil(AtomId, CoilKind),
     Assign(Assignment),
     Unknown { target: Name, by: Name },
 }
 
-struct Event {
-    effect: Effect,
-    guard: Result<Function, Stop>,
+/// An effect, and when it happens.
+pub(super) struct Event {
+    pub(super) effect: Effect,
+    pub(super) guard: Result<Function, Stop>,
     solved: Result<Function, Stop>,
-    zone: Result<Function, Stop>,
-    place: Place,
+    pub(super) zone: Result<Function, Stop>,
+    pub(super) place: Place,
     span: Span,
     closed_contacts: BTreeSet<AtomId>,
-    sees_earlier: bool,
+    pub(super) effective: Option<Result<Function, Stop>>,
 }
 
 /// What decides whether a visit is solved, as conditions.
@@ -138,27 +141,6 @@ impl Circumstances {
         Self {
             solved: Ok(Function::constant(true)),
             zone: Ok(Function::constant(true)),
-        }
-    }
-}
-
-/// A rung while it is solved, in one stretch or several.
-struct Solving<'p> {
-    /// The routine, and the rung in it.
-    place: (usize, usize),
-    rung: &'p Rung,
-    powers: Powers,
-    /// The element that last wrote a variable, so far.
-    written: HashMap<AtomId, usize>,
-}
-
-impl<'p> Solving<'p> {
-    fn new(place: (usize, usize), rung: &'p Rung, walk: &mut Walk<'_>) -> Self {
-        Self {
-            place,
-            rung,
-            powers: powers(&rung.network, walk),
-            written: HashMap::new(),
         }
     }
 }
@@ -225,24 +207,23 @@ impl Collector<'_> {
         walk: &mut Walk<'_>,
     ) {
         let (routine, at) = solving.place;
-        let Solving { rung, powers, .. } = solving;
+        let network = &solving.rung.network;
         for element in elements.map(NodeIndex::new) {
-            if element.index() >= rung.network.len() {
+            if element.index() >= network.len() {
                 break;
             }
-            let node = rung.network.element(element);
+            let node = network.element(element);
             for effect in effects(&node.kind, walk) {
-                let upstream = upstream(&rung.network, element, &effect, walk);
-                let earlier = upstream
-                    .target
-                    .and_then(|target| solving.written.insert(target, element.index()));
-                let sees_earlier = earlier.is_some_and(|write| {
-                    upstream
-                        .first_contact
-                        .is_some_and(|contact| contact > write)
+                let upstream = upstream(network, element, &effect, walk);
+                let seen = (upstream.target)
+                    .map(|target| solving.seen(target, &upstream.contacts))
+                    .filter(|seen| !seen.is_empty());
+                let effective = seen.map(|seen| {
+                    let powers = powers_seeing(&seen, network, walk);
+                    guard_of(&effect, &powers, element, walk)
                 });
-                self.events.push(Event {
-                    guard: guard_of(&effect, powers, element, walk),
+                let event = Event {
+                    guard: guard_of(&effect, &solving.powers, element, walk),
                     effect,
                     solved: circumstances.solved.clone(),
                     zone: circumstances.zone.clone(),
@@ -253,10 +234,12 @@ impl Collector<'_> {
                     },
                     span: node.span,
                     closed_contacts: upstream.closed_contacts,
-                    sees_earlier,
-                });
+                    effective,
+                };
+                solving.add(&event, walk);
+                self.events.push(event);
             }
-            self.timer(&node.kind, powers, element, circumstances, walk);
+            self.timer(&node.kind, &solving.powers, element, circumstances, walk);
         }
     }
 
@@ -434,8 +417,8 @@ fn guard_of(
 struct Upstream {
     /// The Boolean variable that the element writes, if it is a coil.
     target: Option<AtomId>,
-    /// The first contact of that variable, as a place in the network.
-    first_contact: Option<usize>,
+    /// Contacts that let power pass by that variable's value.
+    contacts: Vec<NodeIndex>,
     /// Variables of normally closed contacts.
     closed_contacts: BTreeSet<AtomId>,
 }
@@ -449,11 +432,11 @@ fn upstream(
     let Effect::Coil(target, _) = effect else {
         return Upstream {
             target: None,
-            first_contact: None,
+            contacts: Vec::new(),
             closed_contacts: BTreeSet::new(),
         };
     };
-    let mut first_contact = None;
+    let mut contacts = Vec::new();
     let mut closed_contacts = BTreeSet::new();
     let backwards = Reversed(network.graph());
     let mut search = Dfs::new(backwards, element);
@@ -462,8 +445,9 @@ fn upstream(
             continue;
         };
         let atom = walk.atoms.add_variable(&contact.operand.name);
-        if atom == *target {
-            first_contact = Some(first_contact.unwrap_or(usize::MAX).min(at.index()));
+        let by_value = matches!(contact.kind, ContactKind::Open | ContactKind::Closed);
+        if atom == *target && by_value {
+            contacts.push(at);
         }
         if contact.kind == ContactKind::Closed {
             closed_contacts.insert(atom);
@@ -471,7 +455,7 @@ fn upstream(
     }
     Upstream {
         target: Some(*target),
-        first_contact,
+        contacts,
         closed_contacts,
     }
 }
@@ -534,7 +518,7 @@ fn write(event: &Event, target: AtomId, kind: WriteKind) -> Write {
         place: event.place,
         span: event.span,
         closed_contacts: event.closed_contacts.clone(),
-        sees_earlier: event.sees_earlier,
+        effective: event.effective.clone(),
     }
 }
 

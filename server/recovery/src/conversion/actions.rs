@@ -9,6 +9,7 @@ use super::sequence::Plan;
 use super::wording::Wording;
 use crate::Analysis;
 use crate::conditions::{Variable, WriteKind};
+use crate::states::StoredOutput;
 
 /// The variables that belong to the program itself. Those of a block's
 /// definition belong to its instances; they count only in a file that holds
@@ -35,102 +36,120 @@ pub(super) fn add(
     wording: &Wording<'_>,
     chart: &mut Chart,
 ) {
+    let mut actions = Actions {
+        analysis,
+        sequences,
+        wording,
+        names,
+        chart,
+        always: None,
+    };
     let mut conditional = Vec::new();
     for variable in own_variables(analysis) {
         let atom = variable.atom;
-        if let Some(stored) = analysis.states.stored.iter().find(|it| it.atom == atom) {
-            for (effect, function) in [(Effect::Set, &stored.set), (Effect::Reset, &stored.reset)] {
-                for (step, condition) in shares(function, sequences, wording) {
-                    chart.actions.push(Action {
-                        condition,
-                        ..Action::stored(step, effect.clone(), variable.name.clone())
-                    });
-                }
-            }
-            continue;
+        let mut stored = analysis.states.stored.iter();
+        if let Some(stored) = stored.find(|it| it.atom == atom) {
+            actions.add_stored(stored);
+        } else if memories.iter().any(|memory| memory.atom == atom)
+            || !wording.steps_of(atom).is_empty()
+        {
+            actions.add_state(variable);
+        } else {
+            conditional.push(variable);
         }
-        let is_memory = memories.iter().any(|memory| memory.atom == atom);
-        if is_memory || !wording.steps_of(atom).is_empty() {
-            // A memory's bit is its step; the plant sees it only if it is an
-            // output.
-            if analysis.is_output(variable) {
-                for step in wording.steps_of(atom) {
-                    let action = Action::continuous(step.clone(), variable.name.clone());
-                    chart.actions.push(action);
-                }
-            }
-            continue;
-        }
-        conditional.push(variable);
     }
-    let mut always = None;
     for variable in conditional {
-        add_conditional(
-            variable,
-            analysis,
-            sequences,
-            names,
-            wording,
-            chart,
-            &mut always,
-        );
+        actions.add_conditional(variable);
     }
 }
 
-/// A rung that holds nothing: a continuous action on the steps where its guard
-/// can be true, or of the step that is always active.
-#[allow(clippy::too_many_arguments)]
-fn add_conditional(
-    variable: &Variable,
-    analysis: &Analysis,
-    sequences: &[Plan],
-    names: &mut Names,
-    wording: &Wording<'_>,
-    chart: &mut Chart,
-    always: &mut Option<Name>,
-) {
-    let is_coil = variable
-        .writes
-        .iter()
-        .any(|write| matches!(write.kind, WriteKind::Coil(_)));
-    // A transition bit is resolved wherever it is read.
-    let is_resolved =
-        analysis.states.auxiliaries.contains(variable.atom) && !analysis.is_output(variable);
-    if !is_coil || is_resolved {
-        return;
-    }
-    let Some(next) = wording.resolved(variable) else {
-        return;
-    };
-    let on_steps = shares(&next, sequences, wording);
-    if !on_steps.is_empty() {
-        for (step, condition) in on_steps {
-            chart.actions.push(Action {
-                condition,
-                ..Action::continuous(step, variable.name.clone())
-            });
+/// A chart whose steps are drawn, and what it takes to add their actions.
+struct Actions<'a> {
+    analysis: &'a Analysis,
+    sequences: &'a [Plan],
+    wording: &'a Wording<'a>,
+    names: &'a mut Names,
+    chart: &'a mut Chart,
+    /// The step that is always active, once an action needs it.
+    always: Option<Name>,
+}
+
+impl Actions<'_> {
+    /// An output that some steps set and others reset.
+    fn add_stored(&mut self, stored: &StoredOutput) {
+        for (effect, function) in [(Effect::Set, &stored.set), (Effect::Reset, &stored.reset)] {
+            for (step, condition) in shares(function, self.sequences, self.wording) {
+                self.chart.actions.push(Action {
+                    condition,
+                    ..Action::stored(step, effect.clone(), stored.name.clone())
+                });
+            }
         }
-        return;
     }
-    let Some(condition) = wording.say(&next) else {
-        return;
-    };
-    if condition == Expr::Constant(false) {
-        return;
+
+    /// The bit of a state is its step; the plant sees it only if it is an
+    /// output.
+    fn add_state(&mut self, variable: &Variable) {
+        if !self.analysis.is_output(variable) {
+            return;
+        }
+        for step in self.wording.steps_of(variable.atom) {
+            let action = Action::continuous(step.clone(), variable.name.clone());
+            self.chart.actions.push(action);
+        }
     }
-    let step = always.get_or_insert_with(|| {
-        let name = names.step("Always");
-        chart.steps.push(Step {
+
+    /// A rung that holds nothing: a continuous action on the steps where its
+    /// guard can be true, or of the step that is always active.
+    fn add_conditional(&mut self, variable: &Variable) {
+        let mut writes = variable.writes.iter();
+        let is_coil = writes.any(|write| matches!(write.kind, WriteKind::Coil(_)));
+        // A transition bit is resolved wherever it is read.
+        let is_resolved = self.analysis.states.auxiliaries.contains(variable.atom)
+            && !self.analysis.is_output(variable);
+        if !is_coil || is_resolved {
+            return;
+        }
+        let Some(next) = self.wording.resolved(variable) else {
+            return;
+        };
+        let on_steps = shares(&next, self.sequences, self.wording);
+        if !on_steps.is_empty() {
+            for (step, condition) in on_steps {
+                self.chart.actions.push(Action {
+                    condition,
+                    ..Action::continuous(step, variable.name.clone())
+                });
+            }
+            return;
+        }
+        let Some(condition) = self.wording.say(&next) else {
+            return;
+        };
+        if condition == Expr::Constant(false) {
+            return;
+        }
+        let step = self.always();
+        self.chart.actions.push(Action {
+            condition: (condition != Expr::Constant(true)).then_some(condition),
+            ..Action::continuous(step, variable.name.clone())
+        });
+    }
+
+    /// The step that is always active, drawn when first needed.
+    fn always(&mut self) -> Name {
+        if let Some(always) = &self.always {
+            return always.clone();
+        }
+        let name = self.names.step("Always");
+        self.chart.steps.push(Step {
             initial: true,
             comment: Some("never left: carries what depends on no step".into()),
             ..Step::new(name.clone())
         });
+        self.always = Some(name.clone());
         name
-    });
-    chart.actions.push(Action {
-        condition: (condition != Expr::Constant(true)).then_some(condition),
-        ..Action::continuous(step.clone(), variable.name.clone())
-    });
+    }
 }
 
 /// `function` shared out among the steps without which it is false: each with

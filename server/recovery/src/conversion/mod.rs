@@ -17,6 +17,7 @@ mod naming;
 mod product;
 mod register;
 mod sequence;
+mod sums;
 mod update;
 mod wording;
 
@@ -25,6 +26,7 @@ use logic::Budget;
 
 pub use decisions::{Accept, Accepted, decide};
 pub use findings::spec_findings;
+pub(crate) use sums::Sums;
 pub use update::{Departure, Update, update};
 
 use crate::Analysis;

@@ -57,6 +57,17 @@ pub fn update(
     decisions: &[Decision],
     budget: &Budget,
 ) -> Update {
+    if existing.grafcet == Grafcet::default() {
+        // Nothing that could be kept, and nothing that could depart.
+        return Update {
+            spec: Spec {
+                grafcet: super::spec(analysis, decisions, budget).grafcet,
+                decisions: decisions.to_vec(),
+                ..existing.clone()
+            },
+            departures: Vec::new(),
+        };
+    }
     let base = base(analysis, existing, budget);
     let new = if base.decisions == decisions {
         base.clone()
@@ -116,27 +127,23 @@ impl Departure {
         match self {
             Self::Transition { name, ladder } => {
                 let place = chart.transitions.iter().position(|it| it.name == *name);
-                match (place, ladder) {
-                    (Some(at), Some(transition)) => chart.transitions[at] = transition.clone(),
-                    (Some(at), None) => {
-                        chart.transitions.remove(at);
-                    }
-                    (None, _) => chart.transitions.extend(ladder.clone()),
-                }
+                replace(&mut chart.transitions, place, ladder.clone());
             }
             Self::MissingTransition(transition) => chart.transitions.push(transition.clone()),
             Self::Action { spec, ladder } => {
                 let place = chart.actions.iter().position(|it| it == spec);
-                match (place, ladder) {
-                    (Some(at), Some(action)) => chart.actions[at] = action.clone(),
-                    (Some(at), None) => {
-                        chart.actions.remove(at);
-                    }
-                    (None, _) => chart.actions.extend(ladder.clone()),
-                }
+                replace(&mut chart.actions, place, ladder.clone());
             }
             Self::MissingAction(action) => chart.actions.push(action.clone()),
         }
+    }
+}
+
+/// Puts `by` in the place of what stands `at` a place of `list`, or adds it.
+fn replace<T>(list: &mut Vec<T>, at: Option<usize>, by: Option<T>) {
+    match at {
+        Some(at) => drop(list.splice(at..=at, by)),
+        None => list.extend(by),
     }
 }
 

@@ -73,6 +73,13 @@ impl<'a> Wording<'a> {
     /// Where it needs an edge to rise, what rises is true anyway and is not
     /// said a second time.
     pub(super) fn say(&self, function: &Function) -> Option<Expr> {
+        let sums = &self.analysis.sums;
+        let sum = sums.of(function, &self.budget, || self.sum(function))?;
+        Some(self.in_steps(&sum))
+    }
+
+    /// The same before steps stand for states.
+    fn sum(&self, function: &Function) -> Option<Expr> {
         let atoms = &self.analysis.conditions.atoms;
         let mut rest = function.clone();
         let mut care = Function::constant(true);
@@ -97,19 +104,18 @@ impl<'a> Wording<'a> {
         let upper = rest.or(&care.not(), &self.budget).ok()?;
         let expr = lower.to_expr_within(&upper, atoms, &self.budget).ok()?;
         if edges.is_empty() {
-            return Some(self.in_steps(&expr));
+            return Some(expr);
         }
         match expr {
             Expr::Constant(true) => {}
             Expr::And(parts) => edges.extend(parts),
             other => edges.push(other),
         }
-        let all = if edges.len() == 1 {
+        Some(if edges.len() == 1 {
             edges.remove(0)
         } else {
             Expr::And(edges)
-        };
-        Some(self.in_steps(&all))
+        })
     }
 
     /// `function` in words; past the budget a variable called after `label`,

@@ -100,7 +100,7 @@ fn acts(kind: &ElementKind) -> bool {
     steers || !kind.writes().is_empty()
 }
 
-fn sequences<'a>(analysis: &'a Analysis) -> impl Iterator<Item = &'a Group> {
+fn sequences(analysis: &Analysis) -> impl Iterator<Item = &Group> {
     analysis.groups.iter().filter(|group| group.sequence)
 }
 

@@ -59,6 +59,7 @@ fn timer() -> impl Strategy<Value = ElementKind> {
             instance: named("T"),
             output: "T.Q".into(),
             preset_ms: None,
+            preset_from: None,
         })
     })
 }
@@ -71,6 +72,7 @@ fn counter() -> impl Strategy<Value = ElementKind> {
             instance: named("C"),
             output: "C.DN".into(),
             preset: None,
+            preset_from: None,
         })
     })
 }
@@ -149,18 +151,6 @@ impl Shape {
                 .iter()
                 .flat_map(|leg| leg.draw(builder, ends.clone()))
                 .collect(),
-        }
-    }
-}
-
-impl Shape {
-    /// Whether a contact looks at the variable.
-    pub fn looks_at(&self, name: &str) -> bool {
-        match self {
-            Self::Element(kind) => kind.reads().iter().any(|read| &*read.name == name),
-            Self::Series(parts) | Self::Parallel(parts) => {
-                parts.iter().any(|part| part.looks_at(name))
-            }
         }
     }
 }

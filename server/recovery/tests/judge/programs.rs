@@ -25,8 +25,7 @@ pub const COILS: [&str; 4] = ["q0", "q1", "q2", "q3"];
 pub enum Sight {
     /// Inputs; coils that nothing above writes; and on the way to a coil, that
     /// coil. So every contact sees a value from before the scan, or one that
-    /// only the coil's own rungs have changed. On one rung the contacts of a
-    /// coil stand either all before its first leg or all behind it.
+    /// only the coil's own rungs, or the legs above on its rung, have changed.
     Before,
     /// Any input and coil.
     Anything,
@@ -205,19 +204,18 @@ impl Building {
     fn rung(&mut self, sketch: &RungSketch, at: usize, count: usize) -> Rung {
         let mut builder = label(at);
         let start = vec![petgraph::graph::NodeIndex::new(1)];
-        let own = match &sketch.legs[..] {
-            [(_, End::Coil(coil, _))] => Some(*coil),
+        let coil_of = |end: &End| match end {
+            End::Coil(which, _) => Some(*which),
             _ => None,
         };
+        let mut coils = sketch.legs.iter().map(|(_, end)| coil_of(end));
+        let own = coils.next().flatten();
+        let own = own.filter(|own| coils.all(|coil| coil == Some(*own)));
         let common = sketch.common.shape(&self.visible(own));
         let ends = common.draw(&mut builder, start);
         for (guard, end) in &sketch.legs {
-            let coil = match end {
-                End::Coil(which, _) => Some(*which),
-                _ => None,
-            };
-            let also = coil.filter(|coil| !common.looks_at(COILS[*coil]));
-            let guard = guard.shape(&self.visible(also));
+            let coil = coil_of(end);
+            let guard = guard.shape(&self.visible(coil));
             let ends = guard.draw(&mut builder, ends.clone());
             let end = match end {
                 End::Coil(which, kind) => ElementKind::Coil(Coil {

@@ -5,8 +5,8 @@ use logic::notation::{Lexer, Token, quoted, quoted_value, time};
 use crate::text::spacing::term_text;
 use crate::text::term::term;
 use crate::{
-    Assignment, Block, Coil, CoilKind, Counter, CounterKind, ElementKind, Pin, PinDirection, Timer,
-    TimerKind, Value,
+    Assignment, Block, Coil, CoilKind, Counter, CounterKind, ElementKind, Operand, Pin,
+    PinDirection, Timer, TimerKind, Value,
 };
 
 /// An output as the notation writes it, and what of it the notation cannot
@@ -76,7 +76,8 @@ fn written_timer(timer: &Timer) -> String {
         TimerKind::Pulse => "TP",
         TimerKind::Retentive => "RTO",
     };
-    with_preset(mnemonic, &timer.instance.name, timer.preset_ms.map(time))
+    let preset = timer.preset_ms.map(time);
+    with_preset(mnemonic, &timer.instance, preset, &timer.preset_from)
 }
 
 fn written_counter(counter: &Counter, lost: &mut Vec<String>) -> String {
@@ -90,12 +91,18 @@ fn written_counter(counter: &Counter, lost: &mut Vec<String>) -> String {
         }
     };
     let preset = counter.preset.map(|preset| preset.to_string());
-    with_preset(mnemonic, &counter.instance.name, preset)
+    with_preset(mnemonic, &counter.instance, preset, &counter.preset_from)
 }
 
-fn with_preset(mnemonic: &str, instance: &str, preset: Option<String>) -> String {
-    let instance = quoted(instance);
-    match preset {
+fn with_preset(
+    mnemonic: &str,
+    instance: &Operand,
+    constant: Option<String>,
+    variable: &Option<Operand>,
+) -> String {
+    let instance = quoted(&instance.name);
+    let variable = variable.as_ref().map(|variable| quoted(&variable.name));
+    match constant.or(variable) {
         Some(preset) => format!("{mnemonic}({instance}, {preset})"),
         None => format!("{mnemonic}({instance})"),
     }
