@@ -6,7 +6,7 @@ import { commands, type ExtensionContext, window, workspace } from "vscode";
 import { registerCommands } from "./commands";
 import { concernsGradus } from "./ladder-file";
 import { statusNotification } from "./protocol";
-import { Server } from "./server";
+import { Server, showBeside } from "./server";
 import { Verdicts } from "./verdicts";
 
 let server: Server | undefined;
@@ -43,6 +43,11 @@ export function activate(context: ExtensionContext): void {
     ...registerCommands(context, running, verdicts, () => log.show()),
     workspace.onDidOpenTextDocument((document) => startFor([document])),
     window.onDidChangeActiveTextEditor(lookAtFront),
+    workspace.onDidCreateFiles(({ files }) => {
+      // The first decision about a ladder makes its spec, which then grows in view. The cursor stays.
+      const made = files.find((file) => verdicts.isSpecInView(file));
+      if (made !== undefined) void showBeside(made, false);
+    }),
     workspace.onDidChangeConfiguration((change) => {
       const program = ["gradus.server.path", "gradus.server.extraEnv"].some((name) =>
         change.affectsConfiguration(name),

@@ -2,7 +2,16 @@
  * The language server as the editor sees it: started for the first document that concerns
  * it, restarted on demand or after a crash, and silent but for one message when it gives up.
  */
-import { commands, type ExtensionContext, type LogOutputChannel, Uri, ViewColumn, window, workspace } from "vscode";
+import {
+  commands,
+  type ExtensionContext,
+  type LogOutputChannel,
+  TabInputText,
+  Uri,
+  ViewColumn,
+  window,
+  workspace,
+} from "vscode";
 import {
   CloseAction,
   type CloseHandlerResult,
@@ -180,6 +189,11 @@ export async function showBeside(uri: Uri, takeFocus: boolean): Promise<void> {
     preserveFocus: !takeFocus,
     preview: false,
   });
+  // An edit of a file that was closed has opened it behind the ladder; once is enough.
+  const behind = window.tabGroups.all
+    .flatMap((group) => group.tabs)
+    .filter((tab) => !tab.isActive && tab.input instanceof TabInputText && tab.input.uri.toString() === uri.toString());
+  await window.tabGroups.close(behind, true);
 }
 
 function settingsForServer(): unknown {

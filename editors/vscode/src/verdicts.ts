@@ -46,6 +46,12 @@ export class Verdicts {
     return status && Uri.parse(status.uri, true);
   }
 
+  /** Whether a file is the spec of a ladder that is in view. */
+  isSpecInView(file: Uri): boolean {
+    if (!file.path.endsWith(".grafcet")) return false;
+    return window.visibleTextEditors.some(({ document }) => holdsLadder(document) && stem(document.uri) === stem(file));
+  }
+
   /** Brings the item up to date with the document in front. */
   show(): void {
     const document = window.activeTextEditor?.document;
