@@ -15,17 +15,10 @@ import {
   workspace,
 } from "vscode";
 import type { LanguageClient } from "vscode-languageclient/node";
-import {
-  type Conversion,
-  execute,
-  type Spec,
-  type SuccessorsArguments,
-  showSuccessors,
-  type Text,
-  type VirtualScheme,
-} from "./protocol";
+import { type Conversion, execute, type Spec, type SuccessorsArguments, showSuccessors, type Text } from "./protocol";
 import { type Server, showBeside } from "./server";
 import type { Verdicts } from "./verdicts";
+import { conditionsOf, rungsOf } from "./virtual-documents";
 
 type FileCommand = (client: LanguageClient, ladder: Uri) => Promise<void>;
 
@@ -48,8 +41,8 @@ export function registerCommands(
     "gradus.file.convert": onLadder((client, ladder) => convert(client, "gradus.convert", ladder)),
     "gradus.file.acceptHandovers": onLadder((client, ladder) => convert(client, "gradus.acceptHandovers", ladder)),
     "gradus.file.openSpec": onLadder(openSpec),
-    "gradus.file.ladderText": onLadder((_, ladder) => showVirtual("gradus-ladder", ladder, "ladder")),
-    "gradus.file.conditions": onLadder((_, ladder) => showVirtual("gradus-conditions", ladder, "conditions")),
+    "gradus.file.ladderText": onLadder((_, ladder) => showBeside(rungsOf(ladder), true)),
+    "gradus.file.conditions": onLadder((_, ladder) => showBeside(conditionsOf(ladder), true)),
     "gradus.server.restart": () => server.restart(),
     "gradus.server.report": () => report(context, server),
     "gradus.server.log": showLog,
@@ -72,12 +65,6 @@ async function openSpec(client: LanguageClient, ladder: Uri): Promise<void> {
   const create = "Create It";
   const answer = await window.showInformationMessage("There is no spec beside this ladder yet.", create);
   if (answer === create) await convert(client, "gradus.convert", ladder);
-}
-
-/** Texts of the server's own are documents of a scheme of theirs, so that they follow their file. */
-async function showVirtual(scheme: VirtualScheme, ladder: Uri, ending: string): Promise<void> {
-  const uri = Uri.from({ scheme, path: `${ladder.path}.${ending}`, query: ladder.toString() });
-  await showBeside(uri, true);
 }
 
 async function report(context: ExtensionContext, server: Server): Promise<void> {

@@ -8,6 +8,7 @@ import { concernsGradus } from "./ladder-file";
 import { statusNotification } from "./protocol";
 import { Server, showBeside } from "./server";
 import { Verdicts } from "./verdicts";
+import { VirtualDocuments } from "./virtual-documents";
 
 let server: Server | undefined;
 
@@ -26,10 +27,12 @@ export function activate(context: ExtensionContext): void {
     (client) =>
       client.onNotification(statusNotification, (status) => {
         verdicts.take(status);
+        texts.ladderChanged(status.uri);
         lookAtFront();
       }),
     (state) => verdicts.serverIs(state),
   );
+  const texts = new VirtualDocuments(running);
   server = running;
 
   const startFor = (documents: readonly Parameters<typeof concernsGradus>[0][]) => {
@@ -40,6 +43,7 @@ export function activate(context: ExtensionContext): void {
   context.subscriptions.push(
     log,
     verdicts,
+    texts,
     ...registerCommands(context, running, verdicts, () => log.show()),
     workspace.onDidOpenTextDocument((document) => startFor([document])),
     window.onDidChangeActiveTextEditor(lookAtFront),

@@ -49,9 +49,6 @@ export interface Text {
 export type SuccessorsArguments = [uri: string, position: Position, locations: Location[]];
 export const showSuccessors = "gradus.showSuccessors";
 
-/** Schemes of texts that the server makes from a file: its rungs, and the conditions of its coils. */
-export type VirtualScheme = "gradus-ladder" | "gradus-conditions";
-
 export function execute<Answer>(client: LanguageClient, command: string, ...args: unknown[]): Promise<Answer> {
   return client.sendRequest(ExecuteCommandRequest.type, { command, arguments: args }) as Promise<Answer>;
 }
@@ -59,7 +56,11 @@ export function execute<Answer>(client: LanguageClient, command: string, ...args
 /** Tells the server which of its further messages this client understands. */
 export const furtherCapabilities: StaticFeature = {
   fillClientCapabilities(capabilities: ClientCapabilities): void {
-    capabilities.experimental = { gradusStatus: true, gradusCommands: [showSuccessors] };
+    capabilities.experimental = {
+      gradusStatus: true,
+      gradusVirtualDocuments: true,
+      gradusCommands: [showSuccessors],
+    };
   },
   initialize(): void {},
   getState(): FeatureState {

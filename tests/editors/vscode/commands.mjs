@@ -39,8 +39,8 @@ export function commands(at) {
     const tank = newTank("conditions");
     await editor.open(tank.ladder);
     await editor.run("Gradus: Show the Conditions of All Coils");
-    await editor.text(`${tank.ladder}.conditions`).waitFor();
-    await editor.shows(`${tank.ladder}.conditions`, "Open valve v1");
+    await editor.text(`${tank.ladder}.txt`).waitFor();
+    await editor.shows(`${tank.ladder}.txt`, "Open valve v1");
   });
 
   const export_ = realFile(real.file);
