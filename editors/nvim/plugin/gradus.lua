@@ -21,7 +21,7 @@ for name, call in pairs({
   spec = 'spec',
   ladder = 'ladder',
   conditions = 'conditions',
-  drawing = 'drawing',
+  explain = 'explain',
 }) do
   vim.keymap.set('n', '<Plug>(gradus-' .. name .. ')', '<Cmd>Gradus ' .. call .. '<CR>')
 end

@@ -28,6 +28,7 @@ import {
 import { findExecutable } from "./executable";
 import { ownLanguages, xmlLanguages } from "./ladder-file";
 import { furtherCapabilities } from "./protocol";
+import { pageOf } from "./virtual-documents";
 
 /** How often a crashed server is started anew within three minutes. */
 const restarts = 4;
@@ -120,6 +121,12 @@ export class Server {
       initializationFailedHandler,
       errorHandler: this.#errorHandler(),
       middleware: {
+        // Commands of code actions and lenses reach the server through here; a text it answers is shown.
+        executeCommand: async (command, args, next) => {
+          const answer: unknown = await next(command, args);
+          if (command === "gradus.explain" && typeof args[0] === "string") await showPage(pageOf(args[0]));
+          return answer;
+        },
         window: {
           // A spec opens beside its ladder, not in its place.
           showDocument: async (params, token, next) => {
@@ -194,6 +201,15 @@ export async function showBeside(uri: Uri, takeFocus: boolean): Promise<void> {
     .flatMap((group) => group.tabs)
     .filter((tab) => !tab.isActive && tab.input instanceof TabInputText && tab.input.uri.toString() === uri.toString());
   await window.tabGroups.close(behind, true);
+}
+
+/** Shows a page of Markdown beside the active document, rendered where the editor can. */
+async function showPage(uri: Uri): Promise<void> {
+  try {
+    await commands.executeCommand("markdown.showPreviewToSide", uri);
+  } catch {
+    await showBeside(uri, true);
+  }
 }
 
 function settingsForServer(): unknown {

@@ -18,6 +18,11 @@ export function conditionsOf(ladder: Uri): Uri {
   return Uri.from({ scheme: "gradus-conditions", path: `${ladder.path}.txt`, query: ladder.toString() });
 }
 
+/** The page of a finding's code. */
+export function pageOf(code: string): Uri {
+  return Uri.from({ scheme: "gradus-explain", path: `/${code}.md` });
+}
+
 export class VirtualDocuments implements TextDocumentContentProvider {
   readonly #changed = new EventEmitter<Uri>();
   readonly onDidChange: Event<Uri> = this.#changed.event;

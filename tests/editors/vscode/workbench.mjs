@@ -93,7 +93,7 @@ export async function startWorkbench(vsix) {
       },
     );
     const page = await context.newPage();
-    page.setDefaultTimeout(15_000);
+    page.setDefaultTimeout(30_000);
     page.on("console", (message) => log.write(`console ${message.type()} ${message.text()}\n`));
     await page.goto(`http://127.0.0.1:${port}/?${new URLSearchParams({ folder })}`);
     await page.locator(".monaco-workbench").waitFor({ timeout: 60_000 });
@@ -112,7 +112,7 @@ const browserOptions = [
 ];
 
 /** Waits until a condition holds; says which one it was if it never does. */
-export async function until(what, holds, milliseconds = 15_000) {
+export async function until(what, holds, milliseconds = 30_000) {
   const end = Date.now() + milliseconds;
   for (;;) {
     const found = await holds();

@@ -64,6 +64,9 @@ function M.config()
       end,
     },
     commands = {
+      ['gradus.explain'] = function(command)
+        require('gradus.command').run({ 'explain', command.arguments[1] })
+      end,
       ['gradus.showSuccessors'] = function(command, context)
         require('gradus.successors').list(command.arguments, context.client_id)
       end,

@@ -13,7 +13,7 @@ end
 
 --- Asks the server to run a command for the current buffer.
 ---@param command string
----@param argument table
+---@param argument any
 ---@param on_answer fun(answer: any)
 local function ask(command, argument, on_answer)
   local client = client_of(0)
@@ -47,9 +47,23 @@ local function show_conversion(answer)
   tell((answer.changed and '' or 'nothing to change: ') .. answer.summary)
 end
 
+--- The code of the server's finding on the cursor's line, the nearest before the cursor first.
+---@return string?
+local function code_at_cursor()
+  local line, column = unpack(vim.api.nvim_win_get_cursor(0))
+  local nearest
+  for _, finding in ipairs(vim.diagnostic.get(0, { lnum = line - 1 })) do
+    if finding.source == 'gradus' and (not nearest or finding.col <= column) then
+      nearest = finding.code
+    end
+  end
+  return nearest
+end
+
 ---@class gradus.Subcommand
 ---@field does string
 ---@field choices? string[] what may follow it
+---@field pattern? string what may follow it if it is not one of a few
 ---@field run fun(choice?: string)
 
 ---@type table<string, gradus.Subcommand>
@@ -90,13 +104,16 @@ local subcommands = {
       ask('gradus.conditions', { uri = ladder() }, beside.show_text)
     end,
   },
-  drawing = {
-    does = 'draw the rung under the cursor',
-    run = function()
-      local client = client_of(0)
-      local encoding = client and client.offset_encoding or 'utf-16'
-      local position = vim.lsp.util.make_position_params(0, encoding).position
-      ask('gradus.drawing', { uri = vim.uri_from_bufnr(0), position = position }, beside.show_text)
+  explain = {
+    does = 'show the page of a code, or of the finding under the cursor',
+    pattern = '^G%d%d%d%d$',
+    run = function(code)
+      code = code or code_at_cursor()
+      if code then
+        ask('gradus.explain', code, beside.show_text)
+      else
+        tell('no finding under the cursor; :Gradus explain G2002 shows the page of a code')
+      end
     end,
   },
   report = {
@@ -129,6 +146,14 @@ local function names()
   return all
 end
 
+---@param subcommand gradus.Subcommand
+---@param choice string
+---@return boolean
+local function takes(subcommand, choice)
+  return vim.list_contains(subcommand.choices or {}, choice)
+    or subcommand.pattern ~= nil and choice:find(subcommand.pattern) ~= nil
+end
+
 ---@param words string[]
 function M.run(words)
   local name, choice = words[1], words[2]
@@ -140,9 +165,9 @@ function M.run(words)
   local subcommand = subcommands[name]
   if not subcommand then
     tell(('%s: the subcommands are %s'):format(name, table.concat(names(), ', ')), vim.log.levels.ERROR)
-  elseif choice and not vim.list_contains(subcommand.choices or {}, choice) then
-    local takes = table.concat(subcommand.choices or { 'nothing' }, ', ')
-    tell(('%s: %s takes %s'):format(choice, name, takes), vim.log.levels.ERROR)
+  elseif choice and not takes(subcommand, choice) then
+    local expected = subcommand.pattern and 'a code' or table.concat(subcommand.choices or { 'nothing' }, ', ')
+    tell(('%s: %s takes %s'):format(choice, name, expected), vim.log.levels.ERROR)
   else
     subcommand.run(choice)
   end
