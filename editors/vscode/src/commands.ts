@@ -15,7 +15,7 @@ import {
   workspace,
 } from "vscode";
 import type { LanguageClient } from "vscode-languageclient/node";
-import { type Conversion, execute, type Spec, type SuccessorsArguments, showSuccessors, type Text } from "./protocol";
+import { type Conversion, execute, type Spec, type Text } from "./protocol";
 import { type Server, showBeside } from "./server";
 import type { Verdicts } from "./verdicts";
 import { conditionsOf, rungsOf } from "./virtual-documents";
@@ -47,8 +47,6 @@ export function registerCommands(
     "gradus.server.report": () => report(context, server),
     "gradus.server.log": showLog,
     "gradus.example": () => saveExample(context),
-    [showSuccessors]: (...[uri, position, locations]: SuccessorsArguments) =>
-      server.running().then((client) => client && peek(client, uri, position, locations)),
   }).map(([name, run]) => commands.registerCommand(name, run));
 }
 
@@ -80,16 +78,6 @@ async function report(context: ExtensionContext, server: Server): Promise<void> 
   ].join("\n\n");
   const document = await workspace.openTextDocument({ language: said?.language ?? "markdown", content });
   await window.showTextDocument(document, { preview: false });
-}
-
-async function peek(client: LanguageClient, ...[uri, position, locations]: SuccessorsArguments): Promise<void> {
-  const { protocol2CodeConverter: convert } = client;
-  await commands.executeCommand(
-    "editor.action.showReferences",
-    convert.asUri(uri),
-    convert.asPosition(position),
-    locations.map((location) => convert.asLocation(location)),
-  );
 }
 
 async function saveExample(context: ExtensionContext): Promise<void> {

@@ -2,10 +2,10 @@
  * What the language server offers beyond the Language Server Protocol, and what this
  * client tells it in turn. The server's page of it is docs/protocol.md.
  */
-import type { ClientCapabilities, FeatureState, Location, Position, StaticFeature } from "vscode-languageclient/node";
+import type { ClientCapabilities, FeatureState, StaticFeature } from "vscode-languageclient/node";
 import { ExecuteCommandRequest, type LanguageClient, NotificationType } from "vscode-languageclient/node";
 
-export type Verdict = "no-spec" | "in-step" | "behind" | "broken";
+export type Verdict = "no-sequence" | "no-spec" | "in-step" | "behind";
 
 /** Sent after each analysis of a ladder that is open, or whose spec is. */
 export interface Status {
@@ -45,10 +45,6 @@ export interface Text {
   readonly text: string;
 }
 
-/** The arguments of the lens command that the client runs itself. */
-export type SuccessorsArguments = [uri: string, position: Position, locations: Location[]];
-export const showSuccessors = "gradus.showSuccessors";
-
 export function execute<Answer>(client: LanguageClient, command: string, ...args: unknown[]): Promise<Answer> {
   return client.sendRequest(ExecuteCommandRequest.type, { command, arguments: args }) as Promise<Answer>;
 }
@@ -56,11 +52,7 @@ export function execute<Answer>(client: LanguageClient, command: string, ...args
 /** Tells the server which of its further messages this client understands. */
 export const furtherCapabilities: StaticFeature = {
   fillClientCapabilities(capabilities: ClientCapabilities): void {
-    capabilities.experimental = {
-      gradusStatus: true,
-      gradusVirtualDocuments: true,
-      gradusCommands: [showSuccessors],
-    };
+    capabilities.experimental = { gradusStatus: true, gradusVirtualDocuments: true };
   },
   initialize(): void {},
   getState(): FeatureState {

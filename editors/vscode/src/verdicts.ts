@@ -2,16 +2,16 @@
  * The status item: what the last analysis says of the ladder in front and of its spec.
  * A ladder and the spec beside it share their path but for the ending, so either shows it.
  */
-import { MarkdownString, StatusBarAlignment, type TextDocument, ThemeColor, Uri, window } from "vscode";
+import { MarkdownString, StatusBarAlignment, type TextDocument, Uri, window } from "vscode";
 import { State } from "vscode-languageclient/node";
 import { concernsGradus, holdsLadder, specLanguage } from "./ladder-file";
 import type { Status, Verdict } from "./protocol";
 
 const faces: Record<Verdict, { readonly icon: string; readonly words: string }> = {
+  "no-sequence": { icon: "$(dash)", words: "no sequence" },
   "no-spec": { icon: "$(circle-large-outline)", words: "no spec" },
   "in-step": { icon: "$(check)", words: "in step" },
   behind: { icon: "$(history)", words: "behind" },
-  broken: { icon: "$(error)", words: "broken" },
 };
 
 export class Verdicts {
@@ -42,7 +42,8 @@ export class Verdicts {
   ladderOf(document: TextDocument | undefined): Uri | undefined {
     if (document === undefined) return undefined;
     if (holdsLadder(document)) return document.uri;
-    const status = document.languageId === specLanguage ? this.#ofStem.get(stem(document.uri)) : undefined;
+    if (document.languageId !== specLanguage) return undefined;
+    const status = this.#ofStem.get(stem(document.uri));
     return status && Uri.parse(status.uri, true);
   }
 
@@ -60,7 +61,6 @@ export class Verdicts {
       return;
     }
     const status = this.#ofStem.get(stem(document.uri));
-    this.#item.backgroundColor = undefined;
     if (this.#state === State.Starting || this.#state === State.StartFailed || this.#state === State.Stopped) {
       const starting = this.#state === State.Starting;
       this.#item.text = starting ? "$(loading~spin) Gradus" : "$(debug-disconnect) Gradus";
@@ -84,7 +84,6 @@ export class Verdicts {
     this.#item.text = `${face.icon} ${face.words}${open}`;
     this.#item.tooltip = tooltip(status);
     this.#item.command = status.verdict === "no-spec" ? "gradus.file.convert" : "gradus.file.openSpec";
-    if (status.verdict === "broken") this.#item.backgroundColor = new ThemeColor("statusBarItem.errorBackground");
   }
 }
 

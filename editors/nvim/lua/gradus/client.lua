@@ -34,7 +34,7 @@ end
 ---@return vim.lsp.ClientCapabilities
 local function capabilities()
   local all = vim.lsp.protocol.make_client_capabilities()
-  all.experimental = { gradusStatus = true, gradusCommands = { 'gradus.showSuccessors' } }
+  all.experimental = { gradusStatus = true }
   return all
 end
 
@@ -66,9 +66,6 @@ function M.config()
     commands = {
       ['gradus.explain'] = function(command)
         require('gradus.command').run({ 'explain', command.arguments[1] })
-      end,
-      ['gradus.showSuccessors'] = function(command, context)
-        require('gradus.successors').list(command.arguments, context.client_id)
       end,
     },
   }

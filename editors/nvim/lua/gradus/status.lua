@@ -9,10 +9,15 @@ local M = {}
 ---@field open integer successions neither accepted nor rejected
 ---@field rules integer
 ---@field stale integer rules that the ladder no longer supports
----@field verdict 'no-spec'|'in-step'|'behind'|'broken'
+---@field verdict 'no-sequence'|'no-spec'|'in-step'|'behind'
 ---@field message string
 
-local words = { ['no-spec'] = 'no spec', ['in-step'] = 'in step', behind = 'behind', broken = 'broken' }
+local words = {
+  ['no-sequence'] = 'no sequence',
+  ['no-spec'] = 'no spec',
+  ['in-step'] = 'in step',
+  behind = 'behind',
+}
 
 --- A ladder and the spec beside it share their path but for the ending.
 ---@param path string
