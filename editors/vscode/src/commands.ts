@@ -68,14 +68,12 @@ async function openSpec(client: LanguageClient, ladder: Uri): Promise<void> {
 async function report(context: ExtensionContext, server: Server): Promise<void> {
   const client = await server.running();
   const said = client && (await execute<Text>(client, "gradus.report"));
-  const content = [
-    said?.text ?? "The language server is not running.",
-    "## Editor",
+  const editor = [
     `- ${env.appName} ${version}, ${env.uiKind === UIKind.Desktop ? "desktop" : "web"}, remote: ${env.remoteName ?? "no"}`,
     `- extension ${context.extension.packageJSON.version}`,
     `- ${process.platform} ${process.arch}`,
-    "",
-  ].join("\n\n");
+  ];
+  const content = ["# Editor", editor.join("\n"), said?.text ?? "The language server is not running.\n"].join("\n\n");
   const document = await workspace.openTextDocument({ language: said?.language ?? "markdown", content });
   await window.showTextDocument(document, { preview: false });
 }
