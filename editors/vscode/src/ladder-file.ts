@@ -1,0 +1,34 @@
+/**
+ * Which documents hold ladder. Texts of the project's own languages do by their name.
+ * XML belongs to everybody: only its beginning tells whether it is a ladder export, and
+ * other XML must not even start the language server.
+ */
+import { Range, type TextDocument } from "vscode";
+
+export const specLanguage = "grafcet";
+export const ownLanguages = ["gradus-ladder", specLanguage, "gradus-scenario", "neutral-text"] as const;
+export const xmlLanguages = ["xml", "l5x"] as const;
+
+/** Whether the language server has anything to say about the document. */
+export function concernsGradus(document: TextDocument): boolean {
+  return isAmong(ownLanguages, document.languageId) || isLadderXml(document);
+}
+
+/** Whether the document holds rungs. */
+export function holdsLadder(document: TextDocument): boolean {
+  return document.languageId === "gradus-ladder" || document.languageId === "neutral-text" || isLadderXml(document);
+}
+
+function isLadderXml(document: TextDocument): boolean {
+  if (!isAmong(xmlLanguages, document.languageId)) return false;
+  return beginsAsLadderXml(document.getText(new Range(0, 0, 100, 0)).slice(0, 4096));
+}
+
+/** Whether the beginning of an XML text is that of a Rockwell or PLCopen export. */
+export function beginsAsLadderXml(text: string): boolean {
+  return /<RSLogix5000Content[\s>]/.test(text) || /www\.plcopen\.org\/xml\/tc6/i.test(text);
+}
+
+function isAmong(languages: readonly string[], languageId: string): boolean {
+  return languages.includes(languageId);
+}

@@ -1,0 +1,223 @@
+/**
+ * The language server as the editor sees it: started for the first document that concerns
+ * it, restarted on demand or after a crash, and silent but for one message when it gives up.
+ */
+import {
+  commands,
+  type ExtensionContext,
+  type LogOutputChannel,
+  TabInputText,
+  Uri,
+  ViewColumn,
+  window,
+  workspace,
+} from "vscode";
+import {
+  CloseAction,
+  type CloseHandlerResult,
+  ErrorAction,
+  type ErrorHandler,
+  type ErrorHandlerResult,
+  type InitializationFailedHandler,
+  LanguageClient,
+  type LanguageClientOptions,
+  type Message,
+  RevealOutputChannelOn,
+  type State,
+} from "vscode-languageclient/node";
+import { findExecutable } from "./executable";
+import { ownLanguages, xmlLanguages } from "./ladder-file";
+import { furtherCapabilities } from "./protocol";
+import { pageOf } from "./virtual-documents";
+
+/** How often a crashed server is started anew within three minutes. */
+const restarts = 4;
+
+export class Server {
+  #client: LanguageClient | undefined;
+  #starting: Promise<LanguageClient | undefined> | undefined;
+
+  constructor(
+    private readonly context: ExtensionContext,
+    private readonly log: LogOutputChannel,
+    private readonly onClient: (client: LanguageClient) => void,
+    private readonly onState: (state: State) => void,
+  ) {}
+
+  /** The running client, started if need be; undefined if it cannot be started, which the user has been told. */
+  running(): Promise<LanguageClient | undefined> {
+    this.#starting ??= this.#start().then((client) => {
+      // A failed start is tried again when it is asked for again.
+      if (client === undefined) this.#starting = undefined;
+      return client;
+    });
+    return this.#starting;
+  }
+
+  get isWanted(): boolean {
+    return this.#starting !== undefined;
+  }
+
+  async restart(): Promise<void> {
+    await this.stop();
+    await this.running();
+  }
+
+  async stop(): Promise<void> {
+    const client = this.#client;
+    this.#client = undefined;
+    this.#starting = undefined;
+    if (client === undefined) return;
+    try {
+      await client.dispose();
+    } catch (error) {
+      this.log.warn(`The language server did not stop as asked: ${error}`);
+    }
+  }
+
+  async #start(): Promise<LanguageClient | undefined> {
+    const settings = workspace.getConfiguration("gradus");
+    const executable = await findExecutable(settings.get("server.path", ""), this.context.extensionPath);
+    if ("reason" in executable) {
+      this.log.error(executable.reason);
+      void this.#tell(executable.reason, "Open the Setting");
+      return undefined;
+    }
+    this.log.info(`Language server: ${executable.path} (from the ${executable.from})`);
+
+    const client = new LanguageClient(
+      "gradus",
+      "Gradus",
+      {
+        command: executable.path,
+        args: ["lsp"],
+        options: { env: { ...process.env, ...settings.get<Record<string, string>>("server.extraEnv", {}) } },
+      },
+      this.#options(),
+    );
+    client.registerFeature(furtherCapabilities);
+    client.onDidChangeState(({ newState }) => this.onState(newState));
+    this.onClient(client);
+    this.#client = client;
+    try {
+      await client.start();
+      return client;
+    } catch (error) {
+      this.log.error(`The language server did not start: ${error}`);
+      void this.#tell("The Gradus language server did not start.", "Show the Log");
+      return undefined;
+    }
+  }
+
+  #options(): LanguageClientOptions {
+    const languages = [...ownLanguages, ...xmlLanguages];
+    const initializationFailedHandler: InitializationFailedHandler = () => false;
+    return {
+      documentSelector: ["file", "untitled"].flatMap((scheme) => languages.map((language) => ({ scheme, language }))),
+      initializationOptions: settingsForServer(),
+      synchronize: { configurationSection: "gradus" },
+      outputChannel: this.log,
+      revealOutputChannelOn: RevealOutputChannelOn.Never,
+      initializationFailedHandler,
+      errorHandler: this.#errorHandler(),
+      middleware: {
+        // Commands of code actions and lenses reach the server through here; a text it answers is shown.
+        executeCommand: async (command, args, next) => {
+          const answer: unknown = await next(command, args);
+          if (command === "gradus.explain" && typeof args[0] === "string") await showPage(pageOf(args[0]));
+          return answer;
+        },
+        window: {
+          // A spec opens beside its ladder, not in its place.
+          showDocument: async (params, token, next) => {
+            if (params.external) return next(params, token);
+            await showBeside(Uri.parse(params.uri, true), params.takeFocus ?? false);
+            return { success: true };
+          },
+        },
+      },
+    };
+  }
+
+  #errorHandler(): ErrorHandler {
+    let usual: ErrorHandler | undefined;
+    const handler = () => {
+      usual ??= this.#client?.createDefaultErrorHandler(restarts);
+      return usual;
+    };
+    return {
+      error: async (
+        error: Error,
+        message: Message | undefined,
+        count: number | undefined,
+      ): Promise<ErrorHandlerResult> => {
+        this.log.error(`Connection to the language server: ${error.message}`);
+        return (await handler()?.error(error, message, count)) ?? { action: ErrorAction.Continue };
+      },
+      closed: async (): Promise<CloseHandlerResult> => {
+        const result = (await handler()?.closed()) ?? { action: CloseAction.DoNotRestart };
+        if (result.action === CloseAction.Restart) {
+          this.log.warn("The language server ended without being asked to; it is started again.");
+          return { ...result, handled: true };
+        }
+        this.log.error(`The language server ended more than ${restarts} times within three minutes.`);
+        void this.#tell(
+          "The Gradus language server keeps ending. Nothing of your files is lost.",
+          "Restart",
+          "Show the Log",
+        );
+        return { ...result, handled: true };
+      },
+    };
+  }
+
+  async #tell(message: string, ...choices: ("Open the Setting" | "Show the Log" | "Restart")[]): Promise<void> {
+    switch (await window.showErrorMessage(message, ...choices)) {
+      case "Open the Setting":
+        await commands.executeCommand("workbench.action.openSettings", "gradus.server.path");
+        break;
+      case "Show the Log":
+        this.log.show();
+        break;
+      case "Restart":
+        await this.restart();
+        break;
+      default:
+    }
+  }
+}
+
+/** Shows a document beside the active one, or where it is visible already. */
+export async function showBeside(uri: Uri, takeFocus: boolean): Promise<void> {
+  const visible = window.visibleTextEditors.find((editor) => editor.document.uri.toString() === uri.toString());
+  const document = await workspace.openTextDocument(uri);
+  await window.showTextDocument(document, {
+    viewColumn: visible?.viewColumn ?? ViewColumn.Beside,
+    preserveFocus: !takeFocus,
+    preview: false,
+  });
+  // An edit of a file that was closed has opened it behind the ladder; once is enough.
+  const behind = window.tabGroups.all
+    .flatMap((group) => group.tabs)
+    .filter((tab) => !tab.isActive && tab.input instanceof TabInputText && tab.input.uri.toString() === uri.toString());
+  await window.tabGroups.close(behind, true);
+}
+
+/** Shows a page of Markdown beside the active document, rendered where the editor can. */
+async function showPage(uri: Uri): Promise<void> {
+  try {
+    await commands.executeCommand("markdown.showPreviewToSide", uri);
+  } catch {
+    await showBeside(uri, true);
+  }
+}
+
+function settingsForServer(): unknown {
+  const settings = workspace.getConfiguration("gradus");
+  return Object.fromEntries(
+    ["codeLens", "inlayHints", "suggestions", "diagnostics", "maxFileSize"].map((section) => [
+      section,
+      settings.get(section),
+    ]),
+  );
+}

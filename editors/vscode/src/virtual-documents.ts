@@ -1,0 +1,57 @@
+/**
+ * Documents that the server makes from a file: its rungs as text, the conditions of its
+ * coils, the page of a finding's code. Their address names the file they are made from,
+ * so they can be asked for again at any time, and are, after each analysis of it.
+ */
+import { type Event, EventEmitter, type TextDocumentContentProvider, Uri, workspace } from "vscode";
+import type { Server } from "./server";
+
+const schemes = ["gradus-ladder", "gradus-conditions", "gradus-explain"] as const;
+
+/** The rungs of a ladder in the project's notation. */
+export function rungsOf(ladder: Uri): Uri {
+  return Uri.from({ scheme: "gradus-ladder", path: `${ladder.path}.ladder`, query: ladder.toString() });
+}
+
+/** The conditions of all coils of a ladder. */
+export function conditionsOf(ladder: Uri): Uri {
+  return Uri.from({ scheme: "gradus-conditions", path: `${ladder.path}.txt`, query: ladder.toString() });
+}
+
+/** The page of a finding's code. */
+export function pageOf(code: string): Uri {
+  return Uri.from({ scheme: "gradus-explain", path: `/${code}.md` });
+}
+
+export class VirtualDocuments implements TextDocumentContentProvider {
+  readonly #changed = new EventEmitter<Uri>();
+  readonly onDidChange: Event<Uri> = this.#changed.event;
+  readonly #registrations = schemes.map((scheme) => workspace.registerTextDocumentContentProvider(scheme, this));
+
+  constructor(private readonly server: Server) {}
+
+  dispose(): void {
+    for (const registration of this.#registrations) registration.dispose();
+    this.#changed.dispose();
+  }
+
+  async provideTextDocumentContent(uri: Uri): Promise<string | undefined> {
+    const client = await this.server.running();
+    const answer = await client?.sendRequest<{ readonly text: string }>("workspace/textDocumentContent", {
+      uri: client.code2ProtocolConverter.asUri(uri),
+    });
+    return answer?.text;
+  }
+
+  /** Asks again for what is open and made from that ladder. */
+  ladderChanged(ladder: string): void {
+    for (const { uri } of workspace.textDocuments) {
+      if (
+        schemes.some((scheme) => scheme === uri.scheme) &&
+        Uri.parse(uri.query).toString() === Uri.parse(ladder).toString()
+      ) {
+        this.#changed.fire(uri);
+      }
+    }
+  }
+}

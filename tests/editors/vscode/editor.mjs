@@ -1,0 +1,219 @@
+// What a person does in the workbench, by keyboard, and what a person sees there.
+import { basename, join } from "node:path";
+import { artefacts, until } from "./workbench.mjs";
+
+/** The text of an element as it is read: VS Code draws blanks as no-break spaces. */
+const plain = (text) => text.replaceAll("\u00a0", " ");
+
+export class Editor {
+  constructor(page) {
+    this.page = page;
+    this.keys = page.keyboard;
+  }
+
+  /** A key press can be lost to a widget that is just closing, so what it should do is looked for and the key pressed again. */
+  async pressUntil(what, press, visible) {
+    for (let attempt = 1; ; attempt++) {
+      await press();
+      try {
+        await visible.waitFor({ timeout: 5_000 });
+        return;
+      } catch (error) {
+        if (attempt === 4) throw new Error(`${what}: ${error.message}`);
+        await this.keys.press("Escape");
+      }
+    }
+  }
+
+  async open(path) {
+    await this.#quickInput("open a file", "Control+p", path);
+    await this.text(path).waitFor();
+    await this.page.locator(".quick-input-widget").waitFor({ state: "hidden" });
+  }
+
+  async run(command) {
+    await this.#quickInput(`run ${command}`, "F1", `>${command}`);
+    await this.page.locator(".quick-input-widget").waitFor({ state: "hidden" });
+  }
+
+  async #quickInput(what, key, text) {
+    const input = this.page.locator(".quick-input-widget input.input");
+    await this.pressUntil(what, () => this.keys.press(key), input);
+    await input.fill(text);
+    const wanted = basename(text.replace(/^>/, ""));
+    await this.page.locator(".quick-input-list .monaco-list-row.focused", { hasText: wanted }).waitFor();
+    await this.keys.press("Enter");
+  }
+
+  /** The editor that shows a file, or the text that the server made of one. */
+  text(path) {
+    const uri = `${path.slice(path.lastIndexOf("/workspace/"))}`;
+    return this.page
+      .locator(`.editor-instance .monaco-editor[data-uri$="${uri}"], .editor-instance .monaco-editor[data-uri*="${uri}?"]`)
+      .first();
+  }
+
+  /** Puts the cursor at a line and column, counted from 1, of the editor that has the focus. */
+  async goTo(line, column) {
+    const input = this.page.locator(".quick-input-widget input.input");
+    await this.pressUntil("go to a line", () => this.keys.press("Control+g"), input);
+    await input.fill(`:${line}:${column}`);
+    await this.keys.press("Enter");
+    await this.isAt(line, column);
+  }
+
+  async isAt(line, column) {
+    await this.page.locator("#status\\.editor\\.selection", { hasText: `Ln ${line}, Col ${column}` }).waitFor();
+  }
+
+  /** Gives the focus to the editor of a file. */
+  async focus(path) {
+    await this.text(path).locator(".view-line").first().click();
+  }
+
+  /** Marks so many characters right of the cursor and types over them. */
+  async replace(length, text) {
+    for (let i = 0; i < length; i++) await this.keys.press("Shift+ArrowRight");
+    await this.keys.type(text);
+  }
+
+  get #hover() {
+    return this.page.locator(".monaco-hover:not(.hidden) .hover-contents");
+  }
+
+  async #askForHover() {
+    await this.keys.press("Control+k");
+    await this.keys.press("Control+i");
+  }
+
+  /** What the hover at the cursor says; asked for until it holds some words, since an analysis may be under way. */
+  async hover(words) {
+    await this.pressUntil(`a hover with ${words}`, () => this.#askForHover(), this.#hover.filter({ hasText: words }).first());
+    return plain((await this.#hover.allInnerTexts()).join("\n"));
+  }
+
+  /** Whether the cursor's place has no hover, after the time that one would take. */
+  async noHover() {
+    await this.#askForHover();
+    await this.page.waitForTimeout(1_000);
+    return (await this.#hover.count()) === 0;
+  }
+
+  /** Opens the light bulb's menu at the cursor and takes the first action whose title matches. */
+  async act(title) {
+    const rows = this.page.locator(".action-widget .monaco-list-row.action");
+    const wanted = rows.filter({ hasText: title });
+    await this.pressUntil(`offer ${title}`, () => this.keys.press("Control+."), wanted.first());
+    const focused = this.page.locator(".action-widget .monaco-list-row.action.focused");
+    for (let i = await rows.count(); i > 0; i--) {
+      if (title.test(plain(await focused.innerText()))) break;
+      await this.keys.press("ArrowDown");
+    }
+    const chosen = plain(await focused.innerText());
+    if (!title.test(chosen)) throw new Error(`${title} cannot be reached by the keyboard; the last was ${chosen}`);
+    await this.keys.press("Enter");
+    await rows.first().waitFor({ state: "hidden" });
+    return chosen;
+  }
+
+  /** How many findings of that severity all open files have, as the status bar counts them. */
+  async #count(severity) {
+    const label = (await this.page.locator("#status\\.problems").getAttribute("aria-label")) ?? "";
+    return Number(new RegExp(`${severity}s?: (\\d+)`, "i").exec(label)?.[1] ?? 0);
+  }
+
+  async findings(severity, count) {
+    await until(`${count} findings: ${severity}`, async () => (await this.#count(severity)) === count);
+  }
+
+  /** Goes to the next finding of the file that has the focus. */
+  async nextFinding() {
+    await this.keys.press("F8");
+    await this.page.locator(".peekview-widget, .marker-widget").first().waitFor();
+    await this.keys.press("Escape");
+  }
+
+  /** Applies the fix of that title at one warning after the other until none is left. */
+  async mendAll(title) {
+    for (let left = await this.#count("warning"); left > 0; left = await this.#count("warning")) {
+      await this.act(title);
+      await until("the warning goes", async () => (await this.#count("warning")) < left);
+      if ((await this.#count("warning")) > 0) await this.nextFinding();
+    }
+  }
+
+  async rename(name) {
+    const input = this.page.locator(".rename-box input");
+    await this.pressUntil("rename", () => this.keys.press("F2"), input);
+    await input.fill(name);
+    await this.keys.press("Enter");
+    await input.waitFor({ state: "hidden" });
+  }
+
+  /** Saves every file that was changed, and waits until none is left so. */
+  async saveAll() {
+    await this.run("File: Save All Files");
+    await until("no tab is dirty", async () => (await this.page.locator(".tab.dirty").count()) === 0);
+  }
+
+  /** Waits until a file is open and changed. */
+  async isDirty(path) {
+    await this.page.locator(`.tab.dirty[data-resource-name="${basename(path)}"]`).first().waitFor();
+  }
+
+  /** Leaves the workbench as it was found, whatever the case before it left open. */
+  async closeEverything() {
+    await this.keys.press("Escape");
+    await this.run("View: Close All Editors");
+    const answer = this.page.locator(".monaco-dialog-box .monaco-button", { hasText: "Don't Save" });
+    await until("no tab is open", async () => {
+      if ((await answer.count()) > 0) await answer.first().click();
+      return (await this.page.locator(".tab").count()) === 0;
+    });
+  }
+
+  async openPalette(text) {
+    const input = this.page.locator(".quick-input-widget input.input");
+    await this.pressUntil("open the palette", () => this.keys.press("F1"), input);
+    await input.fill(`>${text}`);
+    await this.page.locator(".quick-input-list .monaco-list-row", { hasText: text.trim() }).first().waitFor();
+  }
+
+  /** The names in the open palette. */
+  async offered() {
+    return (await this.page.locator(".quick-input-list .monaco-list-row").allInnerTexts()).map(plain);
+  }
+
+  /** Whether a visible editor holds a match. */
+  async holds(pattern) {
+    const lines = await this.page.locator(".editor-instance .view-line").allInnerTexts();
+    return lines.map(plain).some((line) => pattern.test(line));
+  }
+
+  /** Waits until the visible part of a file's editor holds a text. */
+  async shows(path, text) {
+    const editor = this.text(path);
+    await until(`${path} shows ${text}`, async () => {
+      const lines = await editor.locator(".view-line").allInnerTexts();
+      return lines.map(plain).some((line) => line.includes(text));
+    });
+  }
+
+  /** How many findings of that severity are underlined in a file's editor. */
+  underlined(path, severity) {
+    return this.text(path).locator(`.squiggly-${severity}`);
+  }
+
+  /** The extension's item in the status bar. */
+  get verdict() {
+    return this.page.locator('.statusbar-item[id$="gradus.verdict"]');
+  }
+
+  async verdictIs(words) {
+    await this.verdict.filter({ hasText: words }).waitFor();
+  }
+
+  async picture(name) {
+    await this.page.screenshot({ path: join(artefacts, `vscode-${name}.png`) });
+  }
+}
