@@ -5,6 +5,7 @@
 //! every message that the protocol does not know or nobody expected.
 
 mod hover;
+mod navigation;
 
 use end_to_end::lsp::{Client, Profile};
 

@@ -9,7 +9,9 @@
 //! * [`said`] and [`legible`]: a condition in the notation, past a size that a
 //!   person can read not at all;
 //! * [`language`]: whether a text is a ladder or a spec;
-//! * [`decide`]: what a new decision does to those made before.
+//! * [`decide`]: what a new decision does to those made before;
+//! * [`navigate`]: from a name to the places that belong to it;
+//! * [`symbols`]: what a document holds, as a tree.
 
 mod coil;
 mod condition;
@@ -20,7 +22,10 @@ mod hover;
 mod ladder;
 pub mod language;
 mod names;
+pub mod navigate;
+mod routine;
 mod spec;
+pub mod symbols;
 
 pub use coil::{Coil, Drawn, Part, Said, coil, coils, kind_word};
 pub use condition::{legible, said};

@@ -17,6 +17,10 @@ pub fn capabilities(client: &Abilities) -> ServerCapabilities {
                 save: Some(TextDocumentSyncSaveOptions::Supported(true)),
             },
         )),
+        definition_provider: Some(OneOf::Left(true)),
+        declaration_provider: Some(DeclarationCapability::Simple(true)),
+        references_provider: Some(OneOf::Left(true)),
+        document_highlight_provider: Some(OneOf::Left(true)),
         hover_provider: Some(HoverProviderCapability::Simple(true)),
         diagnostic_provider: client.pulls_diagnostics.then(pulled_diagnostics),
         workspace: Some(WorkspaceServerCapabilities {

@@ -231,6 +231,56 @@ impl LanguageServer for Server {
         )
     }
 
+    async fn goto_definition(
+        &self,
+        params: GotoDefinitionParams,
+    ) -> Result<Option<GotoDefinitionResponse>> {
+        let at = params.text_document_position_params;
+        about(
+            self.shared.state.world(),
+            at.text_document.uri,
+            move |query| requests::definition::definition(query, at.position),
+        )
+        .await
+    }
+
+    async fn goto_declaration(
+        &self,
+        params: request::GotoDeclarationParams,
+    ) -> Result<Option<request::GotoDeclarationResponse>> {
+        let at = params.text_document_position_params;
+        about(
+            self.shared.state.world(),
+            at.text_document.uri,
+            move |query| requests::definition::declaration(query, at.position),
+        )
+        .await
+    }
+
+    async fn references(&self, params: ReferenceParams) -> Result<Option<Vec<Location>>> {
+        let at = params.text_document_position;
+        let declarations = params.context.include_declaration;
+        about(
+            self.shared.state.world(),
+            at.text_document.uri,
+            move |query| requests::references::answer(query, at.position, declarations),
+        )
+        .await
+    }
+
+    async fn document_highlight(
+        &self,
+        params: DocumentHighlightParams,
+    ) -> Result<Option<Vec<DocumentHighlight>>> {
+        let at = params.text_document_position_params;
+        about(
+            self.shared.state.world(),
+            at.text_document.uri,
+            move |query| requests::highlight::answer(query, at.position),
+        )
+        .await
+    }
+
     async fn hover(&self, params: HoverParams) -> Result<Option<Hover>> {
         let at = params.text_document_position_params;
         about(

@@ -57,7 +57,7 @@ mod words;
 mod write;
 
 pub use format::{Formatted, format};
-pub use places::{Mention, Places, Role, RulePlace};
+pub use places::{Mention, Places, Role, RulePlace, SectionPlace};
 pub use read::{Reading, read};
 pub use rewrite::rewrite;
 pub use spell::action_text;
