@@ -6,6 +6,7 @@
 
 mod hover;
 mod navigation;
+mod symbols;
 
 use end_to_end::lsp::{Client, Profile};
 

@@ -23,6 +23,7 @@ mod config;
 mod disk;
 mod document;
 mod guard;
+mod index;
 mod key;
 mod log;
 mod parent;

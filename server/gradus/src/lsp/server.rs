@@ -281,6 +281,93 @@ impl LanguageServer for Server {
         .await
     }
 
+    async fn document_symbol(
+        &self,
+        params: DocumentSymbolParams,
+    ) -> Result<Option<DocumentSymbolResponse>> {
+        about(
+            self.shared.state.world(),
+            params.text_document.uri,
+            requests::symbols::of_document,
+        )
+        .await
+    }
+
+    async fn symbol(
+        &self,
+        params: WorkspaceSymbolParams,
+    ) -> Result<Option<WorkspaceSymbolResponse>> {
+        let world = self.shared.state.world();
+        query::elsewhere(move |cancel| {
+            requests::symbols::in_folders(&world, &params.query, &cancel)
+        })
+        .await
+    }
+
+    async fn folding_range(&self, params: FoldingRangeParams) -> Result<Option<Vec<FoldingRange>>> {
+        about(
+            self.shared.state.world(),
+            params.text_document.uri,
+            requests::folding::answer,
+        )
+        .await
+    }
+
+    async fn selection_range(
+        &self,
+        params: SelectionRangeParams,
+    ) -> Result<Option<Vec<SelectionRange>>> {
+        let world = self.shared.state.world();
+        about(world, params.text_document.uri, move |query| {
+            requests::selection::answer(query, &params.positions)
+        })
+        .await
+    }
+
+    async fn document_link(&self, params: DocumentLinkParams) -> Result<Option<Vec<DocumentLink>>> {
+        about(
+            self.shared.state.world(),
+            params.text_document.uri,
+            requests::link::answer,
+        )
+        .await
+    }
+
+    async fn prepare_call_hierarchy(
+        &self,
+        params: CallHierarchyPrepareParams,
+    ) -> Result<Option<Vec<CallHierarchyItem>>> {
+        let at = params.text_document_position_params;
+        about(
+            self.shared.state.world(),
+            at.text_document.uri,
+            move |query| requests::hierarchy::prepare(query, at.position),
+        )
+        .await
+    }
+
+    async fn incoming_calls(
+        &self,
+        params: CallHierarchyIncomingCallsParams,
+    ) -> Result<Option<Vec<CallHierarchyIncomingCall>>> {
+        let world = self.shared.state.world();
+        about(world, params.item.uri.clone(), move |query| {
+            requests::hierarchy::incoming(query, &params.item)
+        })
+        .await
+    }
+
+    async fn outgoing_calls(
+        &self,
+        params: CallHierarchyOutgoingCallsParams,
+    ) -> Result<Option<Vec<CallHierarchyOutgoingCall>>> {
+        let world = self.shared.state.world();
+        about(world, params.item.uri.clone(), move |query| {
+            requests::hierarchy::outgoing(query, &params.item)
+        })
+        .await
+    }
+
     async fn hover(&self, params: HoverParams) -> Result<Option<Hover>> {
         let at = params.text_document_position_params;
         about(

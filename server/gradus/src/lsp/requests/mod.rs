@@ -2,6 +2,11 @@
 
 pub mod content;
 pub mod definition;
+pub mod folding;
+pub mod hierarchy;
 pub mod highlight;
 pub mod hover;
+pub mod link;
 pub mod references;
+pub mod selection;
+pub mod symbols;
