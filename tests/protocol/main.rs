@@ -4,9 +4,14 @@
 //! compares what it is shown. [`Client`](end_to_end::lsp::Client) fails on
 //! every message that the protocol does not know or nobody expected.
 
+mod folding;
+mod hierarchy;
 mod hover;
+mod links;
 mod navigation;
+mod selection;
 mod symbols;
+mod tokens;
 
 use end_to_end::lsp::{Client, Profile};
 

@@ -15,7 +15,8 @@
 //! * [`folds_in_ladder`], [`selections_in_ladder`], [`link_in_ladder`] and the
 //!   same for specs: what folds, what a growing selection takes, and where a
 //!   text names the one beside it;
-//! * [`hierarchy`]: which step follows which.
+//! * [`hierarchy`]: which step follows which;
+//! * [`tokens`]: what each name is, for colouring.
 
 mod coil;
 mod condition;
@@ -34,6 +35,7 @@ mod routine;
 mod selection;
 mod spec;
 pub mod symbols;
+pub mod tokens;
 
 pub use coil::{Coil, Drawn, Part, Said, coil, coils, kind_word};
 pub use condition::{legible, said};

@@ -3,6 +3,7 @@
 use tower_lsp::ls_types::*;
 
 use super::abilities::Abilities;
+use super::requests;
 
 /// What is offered to a client with these abilities.
 pub fn capabilities(client: &Abilities) -> ServerCapabilities {
@@ -30,6 +31,15 @@ pub fn capabilities(client: &Abilities) -> ServerCapabilities {
             work_done_progress_options: WorkDoneProgressOptions::default(),
         }),
         call_hierarchy_provider: Some(CallHierarchyServerCapability::Simple(true)),
+        semantic_tokens_provider: Some(
+            SemanticTokensOptions {
+                work_done_progress_options: WorkDoneProgressOptions::default(),
+                legend: requests::tokens::legend(),
+                range: Some(true),
+                full: Some(SemanticTokensFullOptions::Bool(true)),
+            }
+            .into(),
+        ),
         hover_provider: Some(HoverProviderCapability::Simple(true)),
         diagnostic_provider: client.pulls_diagnostics.then(pulled_diagnostics),
         workspace: Some(WorkspaceServerCapabilities {

@@ -368,6 +368,28 @@ impl LanguageServer for Server {
         .await
     }
 
+    async fn semantic_tokens_full(
+        &self,
+        params: SemanticTokensParams,
+    ) -> Result<Option<SemanticTokensResult>> {
+        let world = self.shared.state.world();
+        about(world, params.text_document.uri, |query| {
+            requests::tokens::full(query).map(Into::into)
+        })
+        .await
+    }
+
+    async fn semantic_tokens_range(
+        &self,
+        params: SemanticTokensRangeParams,
+    ) -> Result<Option<SemanticTokensRangeResult>> {
+        let world = self.shared.state.world();
+        about(world, params.text_document.uri, move |query| {
+            requests::tokens::range(query, params.range).map(Into::into)
+        })
+        .await
+    }
+
     async fn hover(&self, params: HoverParams) -> Result<Option<Hover>> {
         let at = params.text_document_position_params;
         about(

@@ -10,3 +10,4 @@ pub mod link;
 pub mod references;
 pub mod selection;
 pub mod symbols;
+pub mod tokens;
