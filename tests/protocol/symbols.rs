@@ -1,10 +1,11 @@
 //! What documents and folders hold: documentSymbol and workspace/symbol.
 
 use end_to_end::lsp::{Client, Profile, selected};
+use tower_lsp::ls_types::notification::Cancel;
 use tower_lsp::ls_types::request::{DocumentSymbolRequest, WorkspaceSymbolRequest};
 use tower_lsp::ls_types::{
-    DocumentSymbol, DocumentSymbolParams, DocumentSymbolResponse, SymbolInformation, SymbolKind,
-    TextDocumentIdentifier, WorkspaceSymbolResponse,
+    CancelParams, DocumentSymbol, DocumentSymbolParams, DocumentSymbolResponse, NumberOrString,
+    SymbolInformation, SymbolKind, TextDocumentIdentifier, WorkspaceSymbolResponse,
 };
 
 use crate::{client, client_like};
@@ -219,6 +220,27 @@ fn what_is_open_counts_as_it_is_and_what_changed_on_disk_is_read_again() {
     assert_eq!(named(&mut client, "lamp"), ["tank.ladder:1 another_lamp"]);
     std::fs::remove_file(client.path("tank.ladder")).expect("removed");
     assert_eq!(named(&mut client, "lamp"), [""; 0]);
+}
+
+#[test]
+fn a_search_that_nobody_waits_for_stops_and_the_next_one_answers() {
+    let mut client = workspace();
+    let params = || tower_lsp::ls_types::WorkspaceSymbolParams {
+        query: "v1".to_owned(),
+        partial_result_params: Default::default(),
+        work_done_progress_params: Default::default(),
+    };
+    for _ in 0..20 {
+        let id = client.begin::<WorkspaceSymbolRequest>(params());
+        client.notify::<Cancel>(CancelParams {
+            id: NumberOrString::Number(id.try_into().expect("a small number")),
+        });
+        // It may have been answered before it was cancelled.
+        if let Err(refused) = client.end::<WorkspaceSymbolRequest>(id) {
+            assert_eq!(refused.code, -32800, "{}", refused.message);
+        }
+    }
+    assert_eq!(named(&mut client, "v1"), ["tank.ladder:3 v1"]);
 }
 
 #[test]

@@ -1,5 +1,7 @@
 //! What can be folded away.
 
+use std::cmp::Reverse;
+
 use ::ladder::Format;
 use source::Span;
 
@@ -112,9 +114,26 @@ fn several_lines(mut folds: Vec<Fold>, text: &str) -> Vec<Fold> {
         let start = fold.span.range().start;
         fold.span = Span::new(start, start + said.trim_end().len());
     }
-    folds.sort();
-    folds.dedup();
-    folds
+    folds.sort_by_key(|it| (it.span.start, Reverse(it.span.end), it.is_comment));
+    folds.dedup_by_key(|it| it.span);
+    nested(folds)
+}
+
+/// Those that lie inside of each other or apart. In XML the elements of two
+/// rungs may be mixed; then only the first of the two folds.
+fn nested(folds: Vec<Fold>) -> Vec<Fold> {
+    let mut open: Vec<u32> = Vec::new();
+    let mut nested = Vec::new();
+    for fold in folds {
+        while open.last().is_some_and(|end| *end <= fold.span.start) {
+            open.pop();
+        }
+        if open.last().is_none_or(|end| fold.span.end <= *end) {
+            open.push(fold.span.end);
+            nested.push(fold);
+        }
+    }
+    nested
 }
 
 #[cfg(test)]
@@ -166,6 +185,13 @@ rung: a -> b
     #[test]
     fn what_takes_one_line_does_not_fold() {
         assert_eq!(in_ladder("// one\nrung: a -> b"), [""; 0]);
+    }
+
+    #[test]
+    fn stretches_that_are_mixed_do_not_both_fold() {
+        let fold = |start, end| code(Span::new(start, end));
+        let mixed = vec![fold(0, 9), fold(1, 5), fold(3, 7), fold(5, 9)];
+        assert_eq!(nested(mixed), [fold(0, 9), fold(1, 5), fold(5, 9)]);
     }
 
     #[test]

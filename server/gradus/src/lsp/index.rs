@@ -185,3 +185,53 @@ fn add(
         );
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn world(folder: &std::path::Path) -> World {
+        World {
+            folders: vec![FileKey::of_path(folder)],
+            ..World::default()
+        }
+    }
+
+    fn names(files: &[Listed]) -> Vec<&str> {
+        let entries = files.iter().flat_map(|it| it.entries.iter());
+        entries.map(|it| it.name.as_str()).collect()
+    }
+
+    #[test]
+    fn a_file_is_read_once_as_long_as_it_does_not_change() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let [one, two] = ["one.ladder", "two.ladder"].map(|name| folder.path().join(name));
+        std::fs::write(&one, "rung: a -> b").expect("a file");
+        std::fs::write(&two, "rung: a -> c").expect("a file");
+        let world = world(folder.path());
+        let all = || {
+            let found = world.index.all(&world, &Cancel::default());
+            found.expect("an answer")
+        };
+        let first = all();
+        assert_eq!(
+            names(&first),
+            ["main", "rung 0", "b", "main", "rung 0", "c"]
+        );
+        std::fs::write(&two, "rung: a -> longer").expect("a file");
+        let second = all();
+        assert!(Arc::ptr_eq(&first[0].entries, &second[0].entries));
+        assert_eq!(names(&second[1..]), ["main", "rung 0", "longer"]);
+    }
+
+    #[test]
+    fn who_waits_no_more_gets_nothing_and_leaves_nothing_half_read() {
+        let folder = tempfile::tempdir().expect("a folder");
+        std::fs::write(folder.path().join("a.ladder"), "rung: a -> b").expect("a file");
+        let world = world(folder.path());
+        let cancelled = Cancel::default();
+        cancelled.cancel();
+        assert!(world.index.all(&world, &cancelled).is_none());
+        assert!(world.index.lock().is_empty());
+    }
+}

@@ -18,7 +18,7 @@ use super::config::Config;
 use super::document::Document;
 use super::key::FileKey;
 use super::log::Log;
-use super::query::{self, about};
+use super::query::{self, Query, about};
 use super::world::State;
 use super::{parent, publish, requests, telling};
 
@@ -73,6 +73,19 @@ impl Server {
     ) -> Result<requests::content::Content> {
         let world = self.shared.state.world();
         query::elsewhere(move |cancel| requests::content::answer(&world, &params, cancel)).await?
+    }
+
+    /// Answers a request about a position.
+    async fn at<T, F>(&self, at: TextDocumentPositionParams, work: F) -> Result<Option<T>>
+    where
+        T: Send + 'static,
+        F: FnOnce(&Query, Position) -> Option<T> + Send + 'static,
+    {
+        let world = self.shared.state.world();
+        about(world, at.text_document.uri, move |query| {
+            work(query, at.position)
+        })
+        .await
     }
 
     /// Takes over what the user set, and tells all findings anew.
@@ -235,11 +248,9 @@ impl LanguageServer for Server {
         &self,
         params: GotoDefinitionParams,
     ) -> Result<Option<GotoDefinitionResponse>> {
-        let at = params.text_document_position_params;
-        about(
-            self.shared.state.world(),
-            at.text_document.uri,
-            move |query| requests::definition::definition(query, at.position),
+        self.at(
+            params.text_document_position_params,
+            requests::definition::definition,
         )
         .await
     }
@@ -248,23 +259,18 @@ impl LanguageServer for Server {
         &self,
         params: request::GotoDeclarationParams,
     ) -> Result<Option<request::GotoDeclarationResponse>> {
-        let at = params.text_document_position_params;
-        about(
-            self.shared.state.world(),
-            at.text_document.uri,
-            move |query| requests::definition::declaration(query, at.position),
+        self.at(
+            params.text_document_position_params,
+            requests::definition::declaration,
         )
         .await
     }
 
     async fn references(&self, params: ReferenceParams) -> Result<Option<Vec<Location>>> {
-        let at = params.text_document_position;
         let declarations = params.context.include_declaration;
-        about(
-            self.shared.state.world(),
-            at.text_document.uri,
-            move |query| requests::references::answer(query, at.position, declarations),
-        )
+        self.at(params.text_document_position, move |query, at| {
+            requests::references::answer(query, at, declarations)
+        })
         .await
     }
 
@@ -272,11 +278,9 @@ impl LanguageServer for Server {
         &self,
         params: DocumentHighlightParams,
     ) -> Result<Option<Vec<DocumentHighlight>>> {
-        let at = params.text_document_position_params;
-        about(
-            self.shared.state.world(),
-            at.text_document.uri,
-            move |query| requests::highlight::answer(query, at.position),
+        self.at(
+            params.text_document_position_params,
+            requests::highlight::answer,
         )
         .await
     }
@@ -337,11 +341,9 @@ impl LanguageServer for Server {
         &self,
         params: CallHierarchyPrepareParams,
     ) -> Result<Option<Vec<CallHierarchyItem>>> {
-        let at = params.text_document_position_params;
-        about(
-            self.shared.state.world(),
-            at.text_document.uri,
-            move |query| requests::hierarchy::prepare(query, at.position),
+        self.at(
+            params.text_document_position_params,
+            requests::hierarchy::prepare,
         )
         .await
     }

@@ -1,3 +1,5 @@
+use std::collections::HashSet;
+
 use ::ladder::{ElementKind, Routine};
 use grafcet::Role;
 use logic::Name;
@@ -144,6 +146,10 @@ fn in_spec(spec: &Spec, subject: &Subject) -> Vec<Reference> {
         Subject::Step(name) => vec![name],
         _ => Vec::new(),
     };
+    let same: HashSet<Span> = match subject {
+        Subject::InSpec(mention) => places.same_as(mention).map(|it| it.span).collect(),
+        _ => HashSet::new(),
+    };
     let mentions = places.mentions.iter().filter(|it| match it.role {
         Role::Step => steps.contains(&&it.name),
         Role::State => match subject {
@@ -154,10 +160,7 @@ fn in_spec(spec: &Spec, subject: &Subject) -> Vec<Reference> {
             Subject::Variable(name) => is_part(&it.name, name),
             _ => false,
         },
-        _ => match subject {
-            Subject::InSpec(mention) => places.same_as(mention).any(|same| same.span == it.span),
-            _ => false,
-        },
+        _ => same.contains(&it.span),
     });
     let mentions = mentions.map(|it| Reference {
         side: Side::Spec,

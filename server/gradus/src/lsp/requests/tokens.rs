@@ -85,3 +85,43 @@ fn lines(query: &Query, span: Span) -> Vec<Range> {
     });
     pieces.filter(|it| it.start != it.end).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use std::str::FromStr;
+    use std::sync::Arc;
+
+    use ide::tokens::Marks;
+    use logic::Budget;
+    use tower_lsp::ls_types::Uri;
+
+    use super::*;
+    use crate::lsp::document::Document;
+    use crate::lsp::world::World;
+
+    #[test]
+    fn a_token_of_several_lines_is_told_line_by_line() {
+        let uri = Uri::from_str("file:///p/a.txt").expect("an address");
+        let text = "\u{1f6d1} ab\r\n\r\ncd e";
+        let query = Query {
+            world: World::default(),
+            document: Arc::new(Document::new(uri, "", None, text)),
+            budget: Budget::default(),
+        };
+        let token = |part: &str| {
+            let start = text.find(part).expect("in the text");
+            Token {
+                span: Span::new(start, start + part.len()),
+                kind: TokenKind::Variable,
+                marks: Marks::default(),
+            }
+        };
+        let tokens = [token("ab\r\n\r\ncd"), token("e")];
+        let data = encoded(&query, &tokens).expect("tokens").data;
+        let places: Vec<[u32; 3]> = data
+            .iter()
+            .map(|it| [it.delta_line, it.delta_start, it.length])
+            .collect();
+        assert_eq!(places, [[0, 3, 2], [2, 0, 2], [0, 3, 1]]);
+    }
+}
