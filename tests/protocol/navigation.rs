@@ -251,3 +251,31 @@ fn xml_that_is_no_ladder_leads_nowhere() {
     let asked = params(&client, "note.xml", Position::new(0, 7));
     assert_eq!(client.request::<GotoDefinition>(asked), None);
 }
+
+#[test]
+fn calls_lead_to_routines_and_to_the_bodies_of_blocks_in_exports() {
+    for (fixture, call, heading) in [
+        ("press.L5X", "JSR(do$0wn,0)", "<Routine Name=\"Down\""),
+        (
+            "press.L5X",
+            "[CDATA[Deb$0ounce(Guard_Input",
+            "<Routine Name=\"Logic\"",
+        ),
+        ("conveyor.L5K", "JSR(Sto$0ps,0);", "ROUTINE Stops"),
+        ("conveyor.L5K", "N: J$0am(Jam1", "ROUTINE Logic"),
+    ] {
+        let mut client = client();
+        let path = end_to_end::path(&format!("fixtures/rockwell/{fixture}"));
+        let text = std::fs::read_to_string(path).expect("a fixture");
+        let marked = client.open(fixture, &with(&text, call));
+        let asked = params(&client, fixture, marked.position(0, false));
+        let found = client.request::<GotoDefinition>(asked);
+        let Some(GotoDefinitionResponse::Link(links)) = found else {
+            panic!("{fixture}: {call}: {found:?}");
+        };
+        let whole = selected(&marked.text, links[0].target_range);
+        assert!(whole.starts_with(heading), "{call}: {whole}");
+        let name = selected(&marked.text, links[0].target_selection_range);
+        assert!(heading.contains(name) && !name.is_empty(), "{call}: {name}");
+    }
+}
