@@ -65,21 +65,28 @@ fn comment(span: Span) -> Fold {
     }
 }
 
-/// Declarations that follow each other line by line.
+/// Declarations that follow each other line by line, comments between.
 fn declarations(ladder: &Ladder) -> Vec<Span> {
     let mut blocks: Vec<Span> = Vec::new();
     for declaration in ladder.program().declarations.iter() {
-        let joined = blocks.last().copied().filter(|block| {
-            let between = block.range().end..declaration.span.range().start;
-            let between = ladder.text.get(between).unwrap_or("\n\n");
-            !between.contains("\n\n") && !between.contains("\n\r\n") && !between.contains("rung")
-        });
-        match (joined, blocks.last_mut()) {
-            (Some(block), Some(last)) => *last = block.cover(declaration.span),
+        match blocks.last_mut() {
+            Some(block) if adjoin(&ladder.text, *block, declaration.span) => {
+                *block = block.cover(declaration.span);
+            }
             _ => blocks.push(declaration.span),
         }
     }
     blocks
+}
+
+/// Whether nothing but whole lines of comment stands between two declarations.
+fn adjoin(text: &str, one: Span, next: Span) -> bool {
+    let Some(between) = text.get(one.range().end..next.range().start) else {
+        return false;
+    };
+    // The rest of the one's line, whole lines, the blanks before the next.
+    let lines = between.trim_end_matches([' ', '\t']).lines().skip(1);
+    lines.map(str::trim).all(|line| line.starts_with("//"))
 }
 
 /// Runs of lines that, blanks before them left out, are all `wanted`.
@@ -164,7 +171,8 @@ mod tests {
 // A tank
 // of water.
 program Tank
-input s
+input s // rung for rung
+// a heading
 input ls2
 
 output v1
@@ -177,7 +185,7 @@ rung: a -> b
 ";
         assert_eq!(
             in_ladder(text),
-            ["1..2 //", "3..10", "4..5", "8..10", "12..13"]
+            ["1..2 //", "3..11", "4..6", "9..11", "13..14"]
         );
         assert_eq!(in_ladder(&text.replace('\n', "\r\n")), in_ladder(text));
     }

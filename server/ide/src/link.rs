@@ -1,5 +1,6 @@
 //! Where a text names the one beside it.
 
+use ::ladder::Role as RoutineRole;
 use grafcet::Role;
 use source::Span;
 
@@ -8,7 +9,13 @@ use crate::{Ladder, Spec};
 /// The bytes of a ladder that stand for its spec: the program's name, else the
 /// first routine's.
 pub fn link_in_ladder(ladder: &Ladder) -> Option<Span> {
-    let routine = ladder.program().routines.first()?;
+    let routines = &ladder.program().routines;
+    // The bodies of blocks come first in exports; nobody calls the program by
+    // their names.
+    let own = routines
+        .iter()
+        .find(|it| it.role != RoutineRole::Definition);
+    let routine = own.or(routines.first())?;
     let name = match routine.unit.is_empty() {
         true => None,
         false => ladder.unit_name(routine),
@@ -60,6 +67,12 @@ mod tests {
         );
         assert_eq!(in_ladder("rung: a -> b"), None);
         assert_eq!(in_ladder(""), None);
+    }
+
+    #[test]
+    fn a_block_does_not_stand_for_the_program() {
+        let text = "routine Valve block\nrung: a -> b\n\nroutine Doors main\nrung: a -> b";
+        assert_eq!(in_ladder(text), Some((42, "Doors")));
     }
 
     #[test]

@@ -42,6 +42,12 @@ impl Ladder {
                 };
                 attribute('"').or_else(|| attribute('\''))?
             }
+            Format::L5k => {
+                let words = ["PROGRAM ", "ADD_ON_INSTRUCTION_DEFINITION "];
+                let heading =
+                    |word: &str| Some(before.rfind(&format!("{word}{name} "))? + word.len());
+                words.into_iter().find_map(heading)?
+            }
             _ => return None,
         };
         Some(Span::new(start, start + name.len()))
@@ -99,6 +105,29 @@ mod tests {
     #[test]
     fn a_ladder_without_a_name_has_none() {
         assert_eq!(names("rung: main -> b"), [None]);
+    }
+
+    #[test]
+    fn in_l5k_routines_and_units_have_headings() {
+        let l5k = include_str!("../../../fixtures/rockwell/conveyor.L5K");
+        let headings = names(l5k);
+        assert_eq!(headings[0], found("ROUTINE"));
+        let ladder = Ladder::read(l5k.into(), &Budget::default());
+        let units = ladder.program().routines.iter().map(|routine| {
+            let span = ladder.unit_name(routine)?;
+            let line = l5k[..span.range().start].rfind('\n')?;
+            Some(l5k[line..span.range().end].trim().to_owned())
+        });
+        let mut units: Vec<_> = units.collect();
+        units.dedup();
+        assert_eq!(
+            units,
+            [
+                found("PROGRAM Belts"),
+                found("PROGRAM Idle"),
+                found("ADD_ON_INSTRUCTION_DEFINITION Jam")
+            ]
+        );
     }
 
     #[test]

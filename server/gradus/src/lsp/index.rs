@@ -66,7 +66,8 @@ impl Index {
     /// The names of all open documents and of all files in the client's
     /// folders, by their keys; `None` once nobody waits any more.
     pub fn all(&self, world: &World, cancel: &Cancel) -> Option<Vec<Listed>> {
-        let mut keys: BTreeSet<FileKey> = world.open.keys().cloned().collect();
+        let open = world.open.values().filter(|it| is_of_its_own(&it.uri));
+        let mut keys: BTreeSet<FileKey> = open.map(|it| it.key.clone()).collect();
         let folders: Vec<PathBuf> = world
             .folders
             .iter()
@@ -147,6 +148,13 @@ impl Index {
     }
 }
 
+/// Whether a document is no other one's view: not made by this server, and no
+/// older state of a file that a client compares with.
+fn is_of_its_own(uri: &Uri) -> bool {
+    let scheme = uri.scheme().as_str();
+    !scheme.starts_with("gradus-") && scheme != "git"
+}
+
 /// The names in a document that people look for.
 fn entries(document: &Document, encoding: Encoding) -> Vec<Entry> {
     let symbols = match document.contents() {
@@ -222,6 +230,17 @@ mod tests {
         let second = all();
         assert!(Arc::ptr_eq(&first[0].entries, &second[0].entries));
         assert_eq!(names(&second[1..]), ["main", "rung 0", "longer"]);
+    }
+
+    #[test]
+    fn views_of_other_documents_are_passed_over() {
+        let of_its_own = |text: &str| {
+            let uri = std::str::FromStr::from_str(text).expect("an address");
+            is_of_its_own(&uri)
+        };
+        assert!(of_its_own("file:///p/tank.ladder") && of_its_own("untitled:Untitled-1"));
+        assert!(!of_its_own("gradus-ladder:/p/tank.L5X.ladder?file"));
+        assert!(!of_its_own("git:/p/tank.ladder?HEAD"));
     }
 
     #[test]
