@@ -6,8 +6,16 @@
 
 mod code_action;
 mod commands;
+mod folding;
+mod hierarchy;
+mod hover;
 mod hover;
 mod lenses;
+mod links;
+mod navigation;
+mod selection;
+mod symbols;
+mod tokens;
 
 use end_to_end::lsp::{Client, Profile};
 

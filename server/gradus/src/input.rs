@@ -54,10 +54,15 @@ pub struct Inputs {
 /// Hidden files and folders are left out, and symbolic links to folders are
 /// not followed, since they can lead in a circle.
 pub fn expand(paths: &[PathBuf], endings: &[&str]) -> Inputs {
+    expand_while(paths, endings, &|| true)
+}
+
+/// The same, as far as it gets while `wanted` holds.
+pub fn expand_while(paths: &[PathBuf], endings: &[&str], wanted: &dyn Fn() -> bool) -> Inputs {
     let mut inputs = Inputs::default();
     for path in paths {
         if !is_standard_input(path) && path.is_dir() {
-            search(path, endings, &mut inputs);
+            search(path, endings, wanted, &mut inputs);
         } else {
             inputs.candidates.push(Candidate {
                 path: path.clone(),
@@ -70,10 +75,10 @@ pub fn expand(paths: &[PathBuf], endings: &[&str]) -> Inputs {
 
 /// Adds the files below `root`. Folders are opened one at a time, so that no
 /// depth of nesting is too much.
-fn search(root: &Path, endings: &[&str], inputs: &mut Inputs) {
+fn search(root: &Path, endings: &[&str], wanted: &dyn Fn() -> bool, inputs: &mut Inputs) {
     let mut found = Vec::new();
     let mut folders = VecDeque::from([root.to_owned()]);
-    while let Some(folder) = folders.pop_front() {
+    while let Some(folder) = folders.pop_front().filter(|_| wanted()) {
         let entries = match fs::read_dir(&folder) {
             Ok(entries) => entries,
             Err(error) => {

@@ -18,6 +18,6 @@ pub mod rules;
 
 pub use model::*;
 pub use rules::{
-    Formatted, Mention, Places, Reading, Role, RulePlace, action_text, decision_text, format, read,
-    rewrite, write,
+    Formatted, Mention, Places, Reading, Role, RulePlace, SectionPlace, action_text, decision_text,
+    format, read, rewrite, write,
 };

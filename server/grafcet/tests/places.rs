@@ -78,3 +78,67 @@ fn rules_have_their_label_their_span_and_their_lines() {
     assert_eq!(&TEXT[decision.range()], "//! accept Seq=10 -> v2 & v3");
     assert!(places.declaration("e1", Role::Rule).is_some());
 }
+
+#[test]
+fn rules_write_what_comes_after_them_and_read_the_rest() {
+    let text = "\
+Step p1, p2
+Partial G1
+Step q1
+Transitions:
+t1: p1*m |- @p2
+Steps:
+p1: p2 |- set R on m
+p2: |- force G1{q1}
+p2: |- n := n + 1
+";
+    let places = read(text).places;
+    let written: Vec<&str> = places
+        .mentions
+        .iter()
+        .filter(|mention| mention.written)
+        .map(|mention| &text[mention.span.range()])
+        .collect();
+    assert_eq!(written, ["p2", "R", "G1", "q1", "n"]);
+}
+
+#[test]
+fn sections_reach_to_their_last_rule_and_parts_to_their_last_line() {
+    let text = "\
+Step p1
+
+Transitions:
+t1: p1*m |- @p1
+// about t2
+t2: p1 |-
+
+// about the part
+Partial G1
+Step q1
+Transitions:
+
+// the end
+";
+    let places = read(text).places;
+    let found: Vec<(&str, bool, &str)> = places
+        .sections
+        .iter()
+        .map(|it| (&*it.title, it.is_part, &text[it.span.range()]))
+        .collect();
+    assert_eq!(
+        found,
+        [
+            (
+                "Transitions",
+                false,
+                "Transitions:\nt1: p1*m |- @p1\n// about t2\nt2: p1 |-"
+            ),
+            (
+                "G1",
+                true,
+                "Partial G1\nStep q1\nTransitions:\n\n// the end"
+            ),
+            ("Transitions", false, "Transitions:"),
+        ]
+    );
+}

@@ -2,7 +2,7 @@ use std::collections::HashSet;
 use std::sync::Arc;
 
 use ::ladder::{Format, Program, Reading, Routine, Rung};
-use logic::{Budget, Function};
+use logic::{Budget, Function, Name};
 use petgraph::graph::NodeIndex;
 use recovery::conditions::{Place, Walk, powers};
 use recovery::{Analysis, analyse};
@@ -77,6 +77,21 @@ impl Ladder {
         let holding = rungs.filter(|(_, span)| span.touches(offset));
         let shortest = holding.min_by_key(|(_, span)| span.len());
         shortest.map(|(place, _)| place)
+    }
+
+    /// Whether `name`, as an element gives it, is a variable: not a constant,
+    /// not a term.
+    pub fn is_variable(&self, name: &Name) -> bool {
+        let known = self.program().declarations.find(name).is_some()
+            || self.analysis.conditions.atoms.find_variable(name).is_some();
+        let mut signs = name.chars();
+        let begins = |c: char| c.is_alphabetic() || matches!(c, '_' | '%' | '\\');
+        known
+            || signs.next().is_some_and(begins)
+                && signs.all(|c| c.is_alphanumeric() || "_.:[],\\".contains(c))
+                && !["true", "false"]
+                    .iter()
+                    .any(|it| name.eq_ignore_ascii_case(it))
     }
 
     /// The condition under which the element at `place` gets power; `None` past

@@ -10,7 +10,14 @@
 //!   person can read not at all;
 //! * [`language`]: whether a text is a ladder or a spec;
 //! * [`decide`]: what a new decision does to those made before;
-//! * [`changed`]: the smallest edits from one text to another.
+//! * [`changed`]: the smallest edits from one text to another;
+//! * [`navigate`]: from a name to the places that belong to it;
+//! * [`symbols`]: what a document holds, as a tree;
+//! * [`folds_in_ladder`], [`selections_in_ladder`], [`link_in_ladder`] and the
+//!   same for specs: what folds, what a growing selection takes, and where a
+//!   text names the one beside it;
+//! * [`hierarchy`]: which step follows which;
+//! * [`tokens`]: what each name is, for colouring.
 
 mod actions;
 mod change;
@@ -20,13 +27,21 @@ mod condition;
 pub mod decide;
 mod decided;
 mod describe;
+mod folding;
+pub mod hierarchy;
 mod hints;
 mod hover;
 mod ladder;
 pub mod language;
 mod lenses;
+mod link;
 mod names;
+pub mod navigate;
+mod routine;
+mod selection;
 mod spec;
+pub mod symbols;
+pub mod tokens;
 
 pub use actions::{Action, ActionKind, Effect, actions_in_ladder, actions_in_spec};
 pub use change::{Change, Departing, changed_spec};
@@ -34,9 +49,12 @@ pub use changed::{changed, edited};
 pub use coil::{Coil, Drawn, Part, Said, coil, coils, kind_word};
 pub use condition::{legible, said};
 pub use decided::{Decided, Standing};
+pub use folding::{Fold, folds_in_ladder, folds_in_spec};
 pub use hints::{Hint, hints_in_ladder, hints_in_spec};
 pub use hover::{Block, Hover, hover_in_ladder, hover_in_spec};
 pub use ladder::Ladder;
 pub use lenses::{Count, Lens, count, lenses_in_ladder, lenses_in_spec};
+pub use link::{link_in_ladder, link_in_spec};
 pub use names::{Mention, Names, Usage, element};
+pub use selection::{selections_in_ladder, selections_in_spec};
 pub use spec::Spec;

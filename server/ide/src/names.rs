@@ -157,7 +157,7 @@ fn name_span(declaration: &Declaration, text: &str) -> Span {
 }
 
 /// Where `word` stands in `text` as a whole word.
-fn word(text: &str, word: &str) -> Option<usize> {
+pub(crate) fn word(text: &str, word: &str) -> Option<usize> {
     let is_part = |c: char| c.is_alphanumeric() || c == '_';
     let same = |at: usize| {
         let here = text.get(at..at + word.len());

@@ -2,9 +2,10 @@
 
 use std::collections::HashMap;
 use std::fs;
-use std::path::Path;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::SystemTime;
+
+use logic::Cancel;
 
 use super::document::Document;
 use super::key::FileKey;
@@ -16,7 +17,7 @@ pub struct Disk(Mutex<HashMap<FileKey, (Stamp, Arc<Document>)>>);
 
 /// What tells whether a file has changed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Stamp {
+pub struct Stamp {
     modified: Option<SystemTime>,
     length: u64,
 }
@@ -28,15 +29,13 @@ impl Disk {
     /// The file of a key, if it is one, is text, and has no more than `limit`
     /// MiB.
     pub fn read(&self, key: &FileKey, limit: u64) -> Option<Arc<Document>> {
-        let path = key.path()?;
-        let stamp = stamp(path).filter(|stamp| stamp.length <= limit << 20)?;
+        let stamp = Stamp::of(key, limit)?;
         if let Some((known, document)) = self.lock().get(key)
             && *known == stamp
         {
             return Some(Arc::clone(document));
         }
-        let text = String::from_utf8(fs::read(path).ok()?).ok()?;
-        let document = Arc::new(Document::new(key.uri()?, "", None, &text));
+        let document = Arc::new(Document::closed(key, &Cancel::default())?);
         let mut files = self.lock();
         if files.len() >= KEPT {
             files.clear();
@@ -78,10 +77,14 @@ impl Disk {
     }
 }
 
-fn stamp(path: &Path) -> Option<Stamp> {
-    let found = fs::metadata(path).ok()?;
-    found.is_file().then(|| Stamp {
-        modified: found.modified().ok(),
-        length: found.len(),
-    })
+impl Stamp {
+    /// The size and time of a file now, if it is one and has no more than
+    /// `limit` MiB.
+    pub fn of(key: &FileKey, limit: u64) -> Option<Self> {
+        let found = fs::metadata(key.path()?).ok()?;
+        (found.is_file() && found.len() <= limit << 20).then(|| Self {
+            modified: found.modified().ok(),
+            length: found.len(),
+        })
+    }
 }

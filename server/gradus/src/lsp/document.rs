@@ -62,6 +62,16 @@ impl Document {
         }
     }
 
+    /// The document that a file holds, if it is text. Working out what it
+    /// means ends early when `cancel` is raised.
+    pub fn closed(key: &FileKey, cancel: &Cancel) -> Option<Self> {
+        let text = String::from_utf8(std::fs::read(key.path()?).ok()?).ok()?;
+        Some(Self {
+            outdated: cancel.clone(),
+            ..Self::new(key.uri()?, "", None, &text)
+        })
+    }
+
     /// The document after `changes`, made one after the other. This one is
     /// outdated from now on.
     pub fn edited(

@@ -24,6 +24,7 @@ mod disk;
 mod document;
 mod edit;
 mod guard;
+mod index;
 mod key;
 mod log;
 mod parent;

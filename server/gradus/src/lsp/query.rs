@@ -4,12 +4,13 @@ use std::sync::Arc;
 
 use logic::{Budget, Cancel};
 use tower_lsp::jsonrpc::{Error, Result};
-use tower_lsp::ls_types::{Position, Range, Uri};
+use tower_lsp::ls_types::{Location, Position, Range, Uri};
 
 use super::document::Document;
 use super::guard::{internal, reason};
 use super::position::Encoding;
 use super::world::World;
+use ide::navigate::{self, Side};
 use ide::{Ladder, Spec};
 use source::Span;
 
@@ -54,6 +55,20 @@ impl Query {
     pub fn pair(&self) -> Pair {
         Pair::of(&self.world, &self.document)
     }
+
+    /// Which of the two texts of a pair the document is.
+    pub fn side(&self) -> Option<Side> {
+        match (self.spec(), self.ladder()) {
+            (Some(_), _) => Some(Side::Spec),
+            (None, Some(_)) => Some(Side::Ladder),
+            (None, None) => None,
+        }
+    }
+
+    /// Where a span of `document` is.
+    pub fn location(&self, document: &Document, span: Span) -> Location {
+        document.location(span, self.encoding())
+    }
 }
 
 /// A ladder and the spec beside it.
@@ -89,6 +104,22 @@ impl Pair {
     /// The spec.
     pub fn spec(&self) -> Option<&Arc<Spec>> {
         self.spec.as_ref()?.spec()
+    }
+
+    /// The document of one of the two.
+    pub fn document(&self, side: Side) -> Option<&Arc<Document>> {
+        match side {
+            Side::Ladder => self.ladder.as_ref(),
+            Side::Spec => self.spec.as_ref(),
+        }
+    }
+
+    /// The two as they are looked at.
+    pub fn looked_at(&self) -> navigate::Pair<'_> {
+        navigate::Pair {
+            ladder: self.ladder().map(|it| &**it),
+            spec: self.spec().map(|it| &**it),
+        }
     }
 }
 

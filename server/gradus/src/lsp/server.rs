@@ -17,7 +17,7 @@ use super::config::Config;
 use super::document::Document;
 use super::key::FileKey;
 use super::log::Log;
-use super::query::{self, about};
+use super::query::{self, Query, about};
 use super::requests::command::Command;
 use super::world::State;
 use super::{parent, publish, requests, telling};
@@ -84,6 +84,19 @@ impl Server {
         self.shared
             .state
             .change(|world| world.config = Arc::new(config));
+    }
+
+    /// Answers a request about a position.
+    async fn at<T, F>(&self, at: TextDocumentPositionParams, work: F) -> Result<Option<T>>
+    where
+        T: Send + 'static,
+        F: FnOnce(&Query, Position) -> Option<T> + Send + 'static,
+    {
+        let world = self.shared.state.world();
+        about(world, at.text_document.uri, move |query| {
+            work(query, at.position)
+        })
+        .await
     }
 }
 
@@ -289,6 +302,154 @@ impl LanguageServer for Server {
             at.text_document.uri,
             move |query| requests::hover::answer(query, at.position),
         )
+        .await
+    }
+
+    async fn goto_definition(
+        &self,
+        params: GotoDefinitionParams,
+    ) -> Result<Option<GotoDefinitionResponse>> {
+        self.at(
+            params.text_document_position_params,
+            requests::definition::definition,
+        )
+        .await
+    }
+
+    async fn goto_declaration(
+        &self,
+        params: request::GotoDeclarationParams,
+    ) -> Result<Option<request::GotoDeclarationResponse>> {
+        self.at(
+            params.text_document_position_params,
+            requests::definition::declaration,
+        )
+        .await
+    }
+
+    async fn references(&self, params: ReferenceParams) -> Result<Option<Vec<Location>>> {
+        let declarations = params.context.include_declaration;
+        self.at(params.text_document_position, move |query, at| {
+            requests::references::answer(query, at, declarations)
+        })
+        .await
+    }
+
+    async fn document_highlight(
+        &self,
+        params: DocumentHighlightParams,
+    ) -> Result<Option<Vec<DocumentHighlight>>> {
+        self.at(
+            params.text_document_position_params,
+            requests::highlight::answer,
+        )
+        .await
+    }
+
+    async fn document_symbol(
+        &self,
+        params: DocumentSymbolParams,
+    ) -> Result<Option<DocumentSymbolResponse>> {
+        about(
+            self.shared.state.world(),
+            params.text_document.uri,
+            requests::symbols::of_document,
+        )
+        .await
+    }
+
+    async fn symbol(
+        &self,
+        params: WorkspaceSymbolParams,
+    ) -> Result<Option<WorkspaceSymbolResponse>> {
+        let world = self.shared.state.world();
+        query::elsewhere(move |cancel| {
+            requests::symbols::in_folders(&world, &params.query, &cancel)
+        })
+        .await
+    }
+
+    async fn folding_range(&self, params: FoldingRangeParams) -> Result<Option<Vec<FoldingRange>>> {
+        about(
+            self.shared.state.world(),
+            params.text_document.uri,
+            requests::folding::answer,
+        )
+        .await
+    }
+
+    async fn selection_range(
+        &self,
+        params: SelectionRangeParams,
+    ) -> Result<Option<Vec<SelectionRange>>> {
+        let world = self.shared.state.world();
+        about(world, params.text_document.uri, move |query| {
+            requests::selection::answer(query, &params.positions)
+        })
+        .await
+    }
+
+    async fn document_link(&self, params: DocumentLinkParams) -> Result<Option<Vec<DocumentLink>>> {
+        about(
+            self.shared.state.world(),
+            params.text_document.uri,
+            requests::link::answer,
+        )
+        .await
+    }
+
+    async fn prepare_call_hierarchy(
+        &self,
+        params: CallHierarchyPrepareParams,
+    ) -> Result<Option<Vec<CallHierarchyItem>>> {
+        self.at(
+            params.text_document_position_params,
+            requests::hierarchy::prepare,
+        )
+        .await
+    }
+
+    async fn incoming_calls(
+        &self,
+        params: CallHierarchyIncomingCallsParams,
+    ) -> Result<Option<Vec<CallHierarchyIncomingCall>>> {
+        let world = self.shared.state.world();
+        about(world, params.item.uri.clone(), move |query| {
+            requests::hierarchy::incoming(query, &params.item)
+        })
+        .await
+    }
+
+    async fn outgoing_calls(
+        &self,
+        params: CallHierarchyOutgoingCallsParams,
+    ) -> Result<Option<Vec<CallHierarchyOutgoingCall>>> {
+        let world = self.shared.state.world();
+        about(world, params.item.uri.clone(), move |query| {
+            requests::hierarchy::outgoing(query, &params.item)
+        })
+        .await
+    }
+
+    async fn semantic_tokens_full(
+        &self,
+        params: SemanticTokensParams,
+    ) -> Result<Option<SemanticTokensResult>> {
+        let world = self.shared.state.world();
+        about(world, params.text_document.uri, |query| {
+            requests::tokens::full(query).map(Into::into)
+        })
+        .await
+    }
+
+    async fn semantic_tokens_range(
+        &self,
+        params: SemanticTokensRangeParams,
+    ) -> Result<Option<SemanticTokensRangeResult>> {
+        let world = self.shared.state.world();
+        about(world, params.text_document.uri, move |query| {
+            requests::tokens::range(query, params.range).map(Into::into)
+        })
         .await
     }
 }

@@ -14,6 +14,7 @@ use super::abilities::Abilities;
 use super::config::Config;
 use super::disk::Disk;
 use super::document::{Contents, Document};
+use super::index::Index;
 use super::key::{FileKey, beside};
 use super::position::Encoding;
 use crate::input::LADDER_ENDINGS;
@@ -31,6 +32,8 @@ pub struct World {
     pub folders: Vec<FileKey>,
     /// Files that are not open.
     pub disk: Arc<Disk>,
+    /// The names in all folders.
+    pub index: Arc<Index>,
 }
 
 impl World {

@@ -58,7 +58,7 @@ mod write;
 
 pub use decisions::decision_text;
 pub use format::{Formatted, format};
-pub use places::{Mention, Places, Role, RulePlace};
+pub use places::{Mention, Places, Role, RulePlace, SectionPlace};
 pub use read::{Reading, read};
 pub use rewrite::rewrite;
 pub use spell::action_text;

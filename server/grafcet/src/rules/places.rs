@@ -17,6 +17,8 @@ pub struct Places {
     pub rules: Vec<RulePlace>,
     /// The lines of the spec's decisions, in the same order.
     pub decisions: Vec<Span>,
+    /// Every section and every part, in the order of the text.
+    pub sections: Vec<SectionPlace>,
 }
 
 /// A name where it stands.
@@ -28,6 +30,9 @@ pub struct Mention {
     pub role: Role,
     /// Whether it is declared here.
     pub declares: bool,
+    /// Whether the rule around it gives it a value: a step after the
+    /// transition or forced by the action, or what the action acts upon.
+    pub written: bool,
     /// The part that the text around it belongs to. A parameter means
     /// something in its part only.
     pub part: Option<Name>,
@@ -70,6 +75,20 @@ pub struct RulePlace {
     pub span: Span,
     /// Its line or lines, from the first byte to the last line end.
     pub lines: Span,
+}
+
+/// A section or a part where it stands.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SectionPlace {
+    /// The word of the section, `Transitions`, or the name of the part.
+    pub title: Name,
+    /// Whether it is a part. Sections stand in parts.
+    pub is_part: bool,
+    /// Its first line.
+    pub heading: Span,
+    /// From its heading to the last rule in it; of a part, to the last line
+    /// that says something.
+    pub span: Span,
 }
 
 impl Places {
@@ -181,6 +200,7 @@ pub(crate) fn places(document: &Document<'_>, steps: &HashSet<Name>, spec: &Spec
             name: mark.name.clone(),
             role: scope.role(mark, part),
             declares: declares(mark.usage),
+            written: written(statement, mark),
             part: part.cloned(),
             span: mark.span,
         });
@@ -189,8 +209,50 @@ pub(crate) fn places(document: &Document<'_>, steps: &HashSet<Name>, spec: &Spec
             places.decisions.push(statement.span());
         }
         places.rules.extend(rule(statement));
+        sections(statement, &mut places.sections);
     }
     places
+}
+
+/// Begins a section or part at its heading, and lets those that are open reach
+/// to the statement.
+fn sections(statement: &Statement, sections: &mut Vec<SectionPlace>) {
+    let begins = |title: Name, is_part| SectionPlace {
+        title,
+        is_part,
+        heading: statement.span(),
+        span: statement.span(),
+    };
+    match &statement.kind {
+        Kind::Blank => {}
+        Kind::Part(name, _) => sections.push(begins(name.clone(), true)),
+        kind => {
+            let part = sections.iter_mut().rev().find(|it| it.is_part);
+            if let Some(part) = part {
+                part.span = part.span.cover(statement.span());
+            }
+            if let Kind::Section(section) = kind {
+                sections.push(begins(section.text().into(), false));
+            } else if statement.label().is_some()
+                && let Some(last) = sections.last_mut()
+            {
+                last.span = last.span.cover(statement.span());
+            }
+        }
+    }
+}
+
+/// Whether a statement writes what is named at `mark`. The first mark of a
+/// rule is its label.
+fn written(statement: &Statement, mark: &Mark) -> bool {
+    let is_label = statement.marks.first().map(|it| it.span) == Some(mark.span);
+    match statement.kind {
+        Kind::Transition(_) => mark.usage == Usage::Step,
+        Kind::Action(_) => {
+            !is_label && matches!(mark.usage, Usage::Output | Usage::Part | Usage::Step)
+        }
+        _ => false,
+    }
 }
 
 fn declares(usage: Usage) -> bool {

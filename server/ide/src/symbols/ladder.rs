@@ -1,0 +1,186 @@
+use ::ladder::{CoilKind, Element, ElementKind, Routine, Rung};
+use source::Span;
+
+use super::{Symbol, SymbolKind, title};
+use crate::navigate::state_of;
+use crate::{Ladder, describe, kind_word};
+
+/// Programs, their routines, the rungs of these, and what each rung drives.
+pub fn symbols_of_ladder(ladder: &Ladder) -> Vec<Symbol> {
+    let routines = &ladder.program().routines;
+    let mut symbols = Vec::new();
+    for unit in routines.chunk_by(|one, other| one.unit == other.unit) {
+        let Some(first) = unit.first() else {
+            continue;
+        };
+        let alone = unit.len() == 1 && (first.name == first.unit || first.unit.is_empty());
+        if alone {
+            let kind = match first.unit.is_empty() {
+                true => SymbolKind::Routine,
+                false => SymbolKind::Program,
+            };
+            symbols.push(routine(ladder, first, kind));
+            continue;
+        }
+        let children = unit
+            .iter()
+            .map(|it| routine(ladder, it, SymbolKind::Routine));
+        if first.unit.is_empty() {
+            symbols.extend(children);
+            continue;
+        }
+        let whole = unit.iter().fold(first.span, |all, it| all.cover(it.span));
+        let name = ladder.unit_name(first);
+        let name = name.unwrap_or(Span::at(whole.range().start));
+        symbols.push(Symbol {
+            children: children.collect(),
+            ..Symbol::new(SymbolKind::Program, &*first.unit, whole, name)
+        });
+    }
+    symbols
+}
+
+fn routine(ladder: &Ladder, routine: &Routine, kind: SymbolKind) -> Symbol {
+    let name = ladder.routine_name(routine);
+    let name = name.unwrap_or(Span::at(routine.span.range().start));
+    Symbol {
+        children: routine.rungs.iter().map(|it| rung(ladder, it)).collect(),
+        ..Symbol::new(kind, &*routine.name, routine.span, name)
+    }
+}
+
+fn rung(ladder: &Ladder, rung: &Rung) -> Symbol {
+    let name = match rung.comment.as_deref().map(title) {
+        Some(title) if !title.is_empty() => format!("rung {}: {title}", rung.number),
+        _ => format!("rung {}", rung.number),
+    };
+    let elements = rung.network.elements();
+    let children = elements.filter_map(|(_, element)| driven(ladder, element));
+    Symbol {
+        children: children.collect(),
+        ..Symbol::new(SymbolKind::Rung, name, rung.span, rung.span)
+    }
+}
+
+/// What an element drives; `None` of one that only passes power on.
+fn driven(ladder: &Ladder, element: &Element) -> Option<Symbol> {
+    let text = || ladder.text.get(element.span.range()).unwrap_or_default();
+    let kind = match &element.kind {
+        ElementKind::Coil(coil) => {
+            let analysis = &ladder.analysis;
+            let name = &coil.operand.name;
+            let kind = match analysis.states.find(name) {
+                Some(_) => SymbolKind::State,
+                None => SymbolKind::Coil,
+            };
+            let mut words = Vec::new();
+            if coil.kind != CoilKind::Plain {
+                words.push(kind_word(coil.kind).to_owned());
+            }
+            if kind == SymbolKind::State {
+                words.push("state".to_owned());
+            }
+            words.extend(analysis.description(name).map(|it| title(&it)));
+            let symbol = Symbol::new(kind, &**name, element.span, coil.operand.span);
+            return Some(symbol.detailed(words.join(", ")));
+        }
+        kind @ ElementKind::Assign(_) => match state_of(ladder, kind) {
+            Some(state) => {
+                let symbol = Symbol::new(SymbolKind::State, &*state, element.span, element.span);
+                return Some(symbol.detailed("state of a step register"));
+            }
+            None => SymbolKind::Box,
+        },
+        ElementKind::Label(_) => SymbolKind::Label,
+        ElementKind::Timer(_)
+        | ElementKind::Counter(_)
+        | ElementKind::ResetBox(_)
+        | ElementKind::Call(_)
+        | ElementKind::Jump(_)
+        | ElementKind::Block(_) => SymbolKind::Box,
+        _ => return None,
+    };
+    let name = describe::name(&element.kind, text());
+    let name = match name.is_empty() {
+        true => title(text()),
+        false => name,
+    };
+    let symbol = Symbol::new(kind, name, element.span, element.span);
+    Some(symbol.detailed(describe::summary(&element.kind)))
+}
+
+#[cfg(test)]
+mod tests {
+    use logic::Budget;
+
+    use super::super::drawn;
+    use super::*;
+
+    fn outline(text: &str) -> String {
+        let ladder = Ladder::read(text.into(), &Budget::default());
+        drawn(&symbols_of_ladder(&ladder), text, 0)
+    }
+
+    #[test]
+    fn a_program_has_rungs_and_these_have_coils() {
+        let text = "\
+program Tank
+output v1 // Fill
+rung \"Fill the tank\": (s + v1) * /ls2 -> v1
+rung: v1 -> set lamp
+rung: v1 -> TON(t1, 5s), call Doors
+
+routine Doors
+rung label again: a -> b
+";
+        assert_eq!(
+            outline(text),
+            "\
+Program Tank | - | Tank
+  Routine Tank | - | Tank
+    Rung rung 0: Fill the tank | - | rung \"Fill the tank\": (s + v1) * /ls2 -> v1
+      State v1 | state, Fill | v1
+    Rung rung 1 | - | rung: v1 -> set lamp
+      Coil lamp | set | lamp
+    Rung rung 2 | - | rung: v1 -> TON(t1, 5s), call Doors
+      Box t1 | on-delay timer, 5s; its output is `t1.Q` | TON(t1, 5s)
+      Box Doors | runs the routine while powered | call Doors
+  Routine Doors | - | Doors
+    Rung rung 0 | - | rung label again: a -> b
+      Label again | where jumps to it arrive | again
+      Coil b | - | b
+"
+        );
+    }
+
+    #[test]
+    fn what_has_no_name_has_only_rungs() {
+        assert_eq!(
+            outline("rung: a -> b"),
+            "\
+Routine main | - | 
+  Rung rung 0 | - | rung: a -> b
+    Coil b | - | b
+"
+        );
+        assert_eq!(outline(""), "");
+    }
+
+    #[test]
+    fn values_of_a_step_register_are_states() {
+        let text = "\
+rung: Seq = 0 * go -> Seq := 10
+rung: Seq = 10 * done -> Seq := 20
+rung: Seq = 20 * back -> Seq := 0, n := 5
+";
+        let outline = outline(text);
+        assert!(
+            outline.contains("State Seq=10 | state of a step register | Seq := 10\n"),
+            "{outline}"
+        );
+        assert!(
+            outline.contains("Box n | :=: becomes 5 | n := 5\n"),
+            "{outline}"
+        );
+    }
+}
