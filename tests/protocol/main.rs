@@ -4,7 +4,11 @@
 //! compares what it is shown. [`Client`](end_to_end::lsp::Client) fails on
 //! every message that the protocol does not know or nobody expected.
 
+mod completion;
+mod formatting;
 mod hover;
+mod inline_completion;
+mod signature_help;
 
 use end_to_end::lsp::{Client, Profile};
 

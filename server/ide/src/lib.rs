@@ -14,6 +14,7 @@
 
 mod changed;
 mod coil;
+mod completion;
 mod condition;
 pub mod decide;
 mod decided;
@@ -21,14 +22,25 @@ mod describe;
 mod hover;
 mod ladder;
 pub mod language;
+mod layout;
 mod names;
+mod next;
+mod section;
+mod signature;
 mod spec;
+mod statement;
 
 pub use changed::{changed, edited};
 pub use coil::{Coil, Drawn, Part, Said, coil, coils, kind_word};
+pub use completion::{
+    Completion, CompletionKind, Completions, complete_in_ladder, complete_in_spec,
+};
 pub use condition::{legible, said};
 pub use decided::{Decided, Standing};
-pub use hover::{Block, Hover, hover_in_ladder, hover_in_spec};
+pub use hover::{Block, Hover, hover_in_ladder, hover_in_spec, hover_of_variable};
 pub use ladder::Ladder;
+pub use layout::{Extent, lay_out_ladder, lay_out_spec};
 pub use names::{Mention, Names, Usage, element};
+pub use next::{Next, NextKind, next, next_at};
+pub use signature::{Signature, signature};
 pub use spec::Spec;

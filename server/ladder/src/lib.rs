@@ -21,3 +21,4 @@ pub mod text;
 
 pub use model::*;
 pub use reading::{Reading, read};
+pub use rockwell::{Instruction, instruction, instructions};

@@ -64,6 +64,7 @@ impl Server {
             end,
         })
         .custom_method("workspace/textDocumentContent", Self::virtual_document)
+        .custom_method("textDocument/inlineCompletion", Self::inline_completion)
         .finish()
     }
 
@@ -73,6 +74,17 @@ impl Server {
     ) -> Result<requests::content::Content> {
         let world = self.shared.state.world();
         query::elsewhere(move |cancel| requests::content::answer(&world, &params, cancel)).await?
+    }
+
+    async fn inline_completion(
+        &self,
+        params: InlineCompletionParams,
+    ) -> Result<Option<InlineCompletionResponse>> {
+        let uri = params.text_document_position.text_document.uri.clone();
+        about(self.shared.state.world(), uri, move |query| {
+            requests::inline_completion::answer(query, &params)
+        })
+        .await
     }
 
     /// Takes over what the user set, and tells all findings anew.
@@ -229,6 +241,74 @@ impl LanguageServer for Server {
             })
             .into(),
         )
+    }
+
+    async fn completion(&self, params: CompletionParams) -> Result<Option<CompletionResponse>> {
+        let at = params.text_document_position;
+        about(
+            self.shared.state.world(),
+            at.text_document.uri,
+            move |query| requests::completion::answer(query, at.position),
+        )
+        .await
+    }
+
+    async fn completion_resolve(&self, mut item: CompletionItem) -> Result<CompletionItem> {
+        let data = item.data.clone().unwrap_or_default();
+        let Ok(remembered) = serde_json::from_value::<requests::completion::Remembered>(data)
+        else {
+            return Ok(item);
+        };
+        let uri = remembered.uri.clone();
+        item.documentation = about(self.shared.state.world(), uri, move |query| {
+            requests::completion::documentation(query, &remembered)
+        })
+        .await?;
+        Ok(item)
+    }
+
+    async fn signature_help(&self, params: SignatureHelpParams) -> Result<Option<SignatureHelp>> {
+        let at = params.text_document_position_params;
+        about(
+            self.shared.state.world(),
+            at.text_document.uri,
+            move |query| requests::signature_help::answer(query, at.position),
+        )
+        .await
+    }
+
+    async fn formatting(&self, params: DocumentFormattingParams) -> Result<Option<Vec<TextEdit>>> {
+        let uri = params.text_document.uri;
+        about(
+            self.shared.state.world(),
+            uri,
+            requests::formatting::document,
+        )
+        .await
+    }
+
+    async fn range_formatting(
+        &self,
+        params: DocumentRangeFormattingParams,
+    ) -> Result<Option<Vec<TextEdit>>> {
+        let uri = params.text_document.uri;
+        about(self.shared.state.world(), uri, move |query| {
+            requests::formatting::range(query, params.range)
+        })
+        .await
+    }
+
+    async fn on_type_formatting(
+        &self,
+        params: DocumentOnTypeFormattingParams,
+    ) -> Result<Option<Vec<TextEdit>>> {
+        let at = params.text_document_position;
+        about(
+            self.shared.state.world(),
+            at.text_document.uri,
+            move |query| requests::formatting::on_type(query, at.position),
+        )
+        .await
     }
 
     async fn hover(&self, params: HoverParams) -> Result<Option<Hover>> {

@@ -107,6 +107,11 @@ fn and(parser: &mut Parser<'_>) -> bool {
     found
 }
 
+/// The line of a decision: `//! accept v1 -> v2`.
+pub fn decision_line(it: &Decision) -> String {
+    print(it)
+}
+
 /// The line of a decision.
 pub(crate) fn print(decision: &Decision) -> String {
     let said = match &decision.verdict {

@@ -56,9 +56,10 @@ mod syntax;
 mod words;
 mod write;
 
+pub use decisions::decision_line;
 pub use format::{Formatted, format};
 pub use places::{Mention, Places, Role, RulePlace};
 pub use read::{Reading, read};
 pub use rewrite::rewrite;
-pub use spell::action_text;
+pub use spell::{action_rule, action_text, spelled, spelled_state, transition_rule};
 pub use write::write;

@@ -1,4 +1,8 @@
 //! The requests of the protocol, one file each.
 
+pub mod completion;
 pub mod content;
+pub mod formatting;
 pub mod hover;
+pub mod inline_completion;
+pub mod signature_help;
