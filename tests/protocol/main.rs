@@ -8,6 +8,7 @@ mod completion;
 mod formatting;
 mod hover;
 mod inline_completion;
+mod rename;
 mod signature_help;
 
 use end_to_end::lsp::{Client, Profile};

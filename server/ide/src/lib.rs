@@ -25,6 +25,7 @@ pub mod language;
 mod layout;
 mod names;
 mod next;
+mod rename;
 mod section;
 mod signature;
 mod spec;
@@ -42,5 +43,9 @@ pub use ladder::Ladder;
 pub use layout::{Extent, lay_out_ladder, lay_out_spec};
 pub use names::{Mention, Names, Usage, element};
 pub use next::{Next, NextKind, next, next_at};
+pub use rename::{
+    Refusal, Renamable, Renaming, renamable_in_ladder, renamable_in_spec, rename_in_ladder,
+    rename_in_spec,
+};
 pub use signature::{Signature, signature};
 pub use spec::Spec;

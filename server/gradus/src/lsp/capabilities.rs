@@ -34,6 +34,7 @@ pub fn capabilities(client: &Abilities) -> ServerCapabilities {
             first_trigger_character: "\n".to_owned(),
             more_trigger_character: None,
         }),
+        rename_provider: Some(rename(client)),
         diagnostic_provider: client.pulls_diagnostics.then(pulled_diagnostics),
         workspace: Some(WorkspaceServerCapabilities {
             workspace_folders: Some(WorkspaceFoldersServerCapabilities {
@@ -43,6 +44,18 @@ pub fn capabilities(client: &Abilities) -> ServerCapabilities {
             ..WorkspaceServerCapabilities::default()
         }),
         ..ServerCapabilities::default()
+    }
+}
+
+/// Who does not know that a server can be asked before wants to hear only yes
+/// or no.
+fn rename(client: &Abilities) -> OneOf<bool, RenameOptions> {
+    match client.prepares_renames {
+        true => OneOf::Right(RenameOptions {
+            prepare_provider: Some(true),
+            work_done_progress_options: WorkDoneProgressOptions::default(),
+        }),
+        false => OneOf::Left(true),
     }
 }
 

@@ -311,6 +311,28 @@ impl LanguageServer for Server {
         .await
     }
 
+    async fn prepare_rename(
+        &self,
+        params: TextDocumentPositionParams,
+    ) -> Result<Option<PrepareRenameResponse>> {
+        let found = about(
+            self.shared.state.world(),
+            params.text_document.uri,
+            move |query| requests::rename::prepare(query, params.position),
+        );
+        found.await?.transpose()
+    }
+
+    async fn rename(&self, params: RenameParams) -> Result<Option<WorkspaceEdit>> {
+        let at = params.text_document_position;
+        let found = about(
+            self.shared.state.world(),
+            at.text_document.uri,
+            move |query| requests::rename::answer(query, at.position, &params.new_name),
+        );
+        found.await?.transpose()
+    }
+
     async fn hover(&self, params: HoverParams) -> Result<Option<Hover>> {
         let at = params.text_document_position_params;
         about(

@@ -15,6 +15,7 @@ use source::Span;
 
 pub(crate) use boxes::BOXES;
 pub use ladder::complete_in_ladder;
+pub(crate) use ladder::spell;
 pub(crate) use neutral::open_call;
 pub use spec::complete_in_spec;
 

@@ -5,4 +5,5 @@ pub mod content;
 pub mod formatting;
 pub mod hover;
 pub mod inline_completion;
+pub mod rename;
 pub mod signature_help;
