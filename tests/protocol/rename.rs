@@ -63,7 +63,7 @@ fn every_client_renames_in_ladder_and_spec_together() {
         );
         let spec = SPEC
             .replace("v1", "\"fill valve\"")
-            .replace("X\"fill valve\"", "Xv1");
+            .replace("X\"fill valve\"", "\"Xfill valve\"");
         assert_eq!(after(&client, &edit, "tank.grafcet"), spec);
         assert_eq!(
             edit.changes.is_some(),

@@ -54,6 +54,7 @@ pub fn next_at(
     budget: &Budget,
 ) -> Option<(Span, Vec<Next>)> {
     let text = &*spec.text;
+    let offset = statement::boundary(text, offset);
     let line = statement::line(text, offset);
     let before = text.get(line.start..offset)?.trim_start_matches('\u{feff}');
     let typed = before.trim_start();
@@ -64,6 +65,9 @@ pub fn next_at(
     let section = section(text, line.start);
     let ends_text = statement::code(text, line.end..text.len()).is_empty();
     let decides = typed.starts_with("//!") || typed.is_empty() && ends_text;
+    if !decides && !matches!(section, Section::Transitions | Section::Steps) {
+        return None;
+    }
     let mut lines = next(spec, ladder, weakest, budget);
     lines.retain(|it| {
         let wanted = it.kind != NextKind::Decision || decides;

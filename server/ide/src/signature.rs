@@ -5,7 +5,7 @@ use logic::notation::{Token, TokenKind};
 
 use crate::Ladder;
 use crate::completion::{BOXES, open_call};
-use crate::statement::{code, in_ladder};
+use crate::statement::{boundary, code, in_ladder};
 
 /// A box whose operands are being typed.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -23,6 +23,7 @@ pub struct Signature {
 /// The box between whose parentheses the byte `offset` of a ladder text stands.
 pub fn signature(ladder: &Ladder, offset: usize) -> Option<Signature> {
     let text = &*ladder.text;
+    let offset = boundary(text, offset);
     match ladder.program().format {
         Format::NeutralText => {
             let (mnemonic, active) = open_call(text.get(..offset)?)?;

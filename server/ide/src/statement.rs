@@ -13,6 +13,16 @@ pub(crate) const LADDER_WORDS: [&str; 9] = [
     "program", "routine", "rung", "input", "output", "inout", "internal", "constant", "variable",
 ];
 
+/// The byte `offset` of a text, or the nearest before it where a character
+/// begins: no place that an editor knows lies inside of one.
+pub(crate) fn boundary(text: &str, offset: usize) -> usize {
+    let mut offset = offset.min(text.len());
+    while !text.is_char_boundary(offset) {
+        offset -= 1;
+    }
+    offset
+}
+
 /// The lines of a text, without their ends.
 fn lines(text: &str) -> Vec<Range<usize>> {
     let mut lines = Vec::new();

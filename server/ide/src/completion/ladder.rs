@@ -11,11 +11,12 @@ use super::neutral;
 use super::variables::{Wanted, addresses, variables};
 use super::{Completion, CompletionKind, Completions};
 use crate::Ladder;
-use crate::statement::{self, LADDER_WORDS, Typed, code};
+use crate::statement::{self, LADDER_WORDS, Typed, boundary, code};
 
 /// What can be typed at the byte `offset` of a ladder text, best first. In XML
 /// nothing can: there a rung is more than its text.
 pub fn complete_in_ladder(ladder: &Ladder, offset: usize) -> Option<Completions> {
+    let offset = boundary(&ladder.text, offset);
     match ladder.program().format {
         Format::NeutralText => return neutral::complete(ladder, offset),
         Format::Ladder | Format::Unknown => {}

@@ -12,7 +12,7 @@ use super::variables::{Wanted, variables};
 use super::{Completion, CompletionKind, Completions};
 use crate::next::{followers, why};
 use crate::section::{Section, section};
-use crate::statement::{self, Typed, code, tokens};
+use crate::statement::{self, Typed, boundary, code, tokens};
 use crate::{Decided, Ladder, Spec, next};
 
 /// What can be typed at the byte `offset` of a rule text, best first; decisions
@@ -31,6 +31,7 @@ pub fn complete_in_spec(
         budget,
     };
     let text = &*spec.text;
+    let offset = boundary(text, offset);
     let line = statement::line(text, offset);
     if let Some(comment) = decision_before(text, offset) {
         return Some(asked.in_decision(comment, offset));

@@ -5,6 +5,7 @@
 //! edited texts are read again, and unless they say what the old ones said, up
 //! to the name, nothing is changed and a sentence tells why.
 
+mod derived;
 mod ladder;
 mod leftover;
 mod same;
@@ -13,10 +14,10 @@ mod spelling;
 mod written;
 
 use grafcet::Role;
-use logic::Name;
+use logic::{Budget, Name};
 use source::{Edit, Span};
 
-use crate::{Ladder, Spec};
+use crate::{Ladder, Spec, edited};
 use written::Variable;
 
 /// What can be renamed at a place.
@@ -78,9 +79,10 @@ pub fn rename_in_ladder(
     spec: Option<&Spec>,
     offset: usize,
     new: &str,
+    budget: &Budget,
 ) -> Option<Result<Renaming, Refusal>> {
-    let renamed = ladder::at(ladder, offset)?.and_then(|(it, _)| variable(&it, ladder, spec, new));
-    Some(renamed)
+    let found = ladder::at(ladder, offset)?;
+    Some(found.and_then(|(it, _)| variable(&it, ladder, spec, new, budget)))
 }
 
 /// Renames what stands at the byte `offset` of a spec; a variable or state in
@@ -90,10 +92,13 @@ pub fn rename_in_spec(
     ladder: Option<&Ladder>,
     offset: usize,
     new: &str,
+    budget: &Budget,
 ) -> Option<Result<Renaming, Refusal>> {
     let renamed = match (target(spec, ladder, offset)?, ladder) {
         (Err(refusal), _) => Err(refusal),
-        (Ok((Target::Variable(it), _)), Some(ladder)) => variable(&it, ladder, Some(spec), new),
+        (Ok((Target::Variable(it), _)), Some(ladder)) => {
+            variable(&it, ladder, Some(spec), new, budget)
+        }
         (Ok((Target::Own(own), _)), _) => spec::rename(spec, &own, new).map(|edits| Renaming {
             old: own.name.to_string(),
             ladder: Vec::new(),
@@ -109,6 +114,7 @@ fn variable(
     ladder: &Ladder,
     spec: Option<&Spec>,
     new: &str,
+    budget: &Budget,
 ) -> Result<Renaming, Refusal> {
     spelling::check(ladder.program().format, new)?;
     if *new == variable.local {
@@ -116,7 +122,14 @@ fn variable(
     }
     let (edits, name) = ladder::rename(ladder, variable, new)?;
     let in_spec = match spec {
-        Some(spec) => spec::rename_variable(spec, &variable.name, &name)?,
+        Some(spec) => {
+            let with = derived::Derived {
+                old: ladder,
+                text: &edited(&ladder.text, &edits),
+                budget,
+            };
+            spec::rename_variable(spec, &variable.name, &name, &with)?
+        }
         None => Vec::new(),
     };
     Ok(Renaming {

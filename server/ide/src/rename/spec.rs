@@ -1,16 +1,25 @@
 //! Renaming in the rule text of a grafcet.
 
+use std::collections::HashSet;
+
 use grafcet::{Mention, Reading, Role, spelled, spelled_state};
 use logic::Name;
 use source::{Diagnostic, Edit};
 
+use super::derived::Derived;
 use super::written::is_part_of;
 use super::{Own, Refusal, spelling};
 use crate::{Spec, edited};
 
 /// The edits that rename a variable of the ladder: where its value is read or
-/// written, and where it is the state of a step or of a decision.
-pub(super) fn rename_variable(spec: &Spec, old: &str, new: &str) -> Result<Vec<Edit>, Refusal> {
+/// written, where it is the state of a step or of a decision, and in names that
+/// a conversion made of it.
+pub(super) fn rename_variable(
+    spec: &Spec,
+    old: &str,
+    new: &str,
+    derived: &Derived<'_>,
+) -> Result<Vec<Edit>, Refusal> {
     let own = |it: &Mention| {
         let name = &*it.name;
         let is_value =
@@ -18,13 +27,32 @@ pub(super) fn rename_variable(spec: &Spec, old: &str, new: &str) -> Result<Vec<E
         matches!(it.role, Role::Variable | Role::State)
             && (name == old || is_part_of(name, old) || is_value)
     };
-    if !spec.reading.places.mentions.iter().any(own) {
+    let mentions = &spec.reading.places.mentions;
+    if !mentions.iter().any(own) {
         return Ok(Vec::new());
     }
     is_free(spec, &own, new)?;
-    edits(spec, &|it| {
-        own(it).then(|| format!("{new}{}", &it.name[old.len()..]))
-    })
+    let variable = |it: &Mention| own(it).then(|| format!("{new}{}", &it.name[old.len()..]));
+    let alone = edits(spec, &variable)?;
+    let after = Spec::read(edited(&spec.text, &alone).into());
+    let mut names = derived.names(spec, &after);
+    let taken: HashSet<&Name> = mentions.iter().map(|it| &it.name).collect();
+    let is_new = |it: &Name| !taken.contains(it) && **it != *new;
+    names.steps.retain(|_, name| is_new(name));
+    names.transitions.retain(|_, name| is_new(name));
+    let all = |it: &Mention| {
+        let made = match it.role {
+            Role::Step => names.steps.get(&it.name),
+            Role::Transition => {
+                let step = names.steps.get(&it.name);
+                names.transitions.get(&it.name).or(step)
+            }
+            _ => None,
+        };
+        made.map(ToString::to_string).or_else(|| variable(it))
+    };
+    // Names that people gave may stand in the way of those of a conversion.
+    edits(spec, &all).or(Ok(alone))
 }
 
 /// The edits that rename something of the spec's own.

@@ -16,8 +16,8 @@ fn renamed(ladder: &str, spec: &str, new: &str) -> Result<(String, String), Stri
     let plain = |text: &str| text.replacen("$0", "", 1);
     let (it, of) = read(&plain(ladder), &plain(spec));
     let renaming = match (ladder.find("$0"), spec.find("$0")) {
-        (Some(offset), _) => rename_in_ladder(&it, Some(&of), offset, new),
-        (None, Some(offset)) => rename_in_spec(&of, Some(&it), offset, new),
+        (Some(offset), _) => rename_in_ladder(&it, Some(&of), offset, new, &Budget::default()),
+        (None, Some(offset)) => rename_in_spec(&of, Some(&it), offset, new, &Budget::default()),
         (None, None) => panic!("no cursor"),
     };
     let renaming = renaming.expect("a name").map_err(|refusal| refusal.0)?;
@@ -63,17 +63,54 @@ fn a_variable_is_renamed_in_ladder_and_spec() {
     assert_eq!(
         spec,
         "\
-Step X0, Xv1 for \"fill valve\" // v1
+Step X0, \"Xfill valve\" for \"fill valve\" // v1
 Transition t1
 Input s
 Output \"fill valve\"
 Transitions:
-t1: X0*s*/\"fill valve\" |- @Xv1
+t1: X0*s*/\"fill valve\" |- @\"Xfill valve\"
 Steps:
-Xv1: |- \"fill valve\"
+\"Xfill valve\": |- \"fill valve\"
 //! initial \"fill valve\"
 "
     );
+}
+
+#[test]
+fn a_spec_follows_its_ladder_as_well_as_before() {
+    let budget = Budget::default();
+    let text =
+        "input s\ninput ls2\nrung: (s + v1$0) * /ls2 -> v1\nrung: (v2 + ls2*/v1) * /s -> v2\n";
+    let ladder = Ladder::read(text.replace("$0", "").into(), &budget);
+    let accepted = grafcet::read("//! accept v1 -> v2\n").spec.decisions;
+    let spec = recovery::conversion::spec(&ladder.analysis, &accepted, &budget);
+    let (ladder, spec) = renamed(text, &grafcet::write(&spec), "fill").expect("renamed");
+    let (ladder, spec) = read(&ladder, &spec);
+    assert_eq!(
+        &*spec.text,
+        "\
+Step fill_waits  // nothing runs yet
+Step Xfill for fill
+Step Dfill  // v1 has ended; waits for what follows
+Step Xv2 for v2
+Transition fill_waits_to_fill, fill_to_Dfill, Dfill_to_v2, v2_to_fill_waits
+Input s, ls2
+Output v2
+Marking fill_waits
+
+Transitions:
+fill_waits_to_fill: fill_waits*s*/ls2 |- @Xfill
+fill_to_Dfill: Xfill*ls2 |- @Dfill
+Dfill_to_v2: Dfill*/s*ls2 |- @Xv2
+v2_to_fill_waits: Xv2*s |- @fill_waits
+
+Steps:
+Xv2: |- v2
+
+//! accept fill -> v2
+"
+    );
+    assert_eq!(spec.findings(Some(&ladder), &budget), []);
 }
 
 #[test]

@@ -55,7 +55,8 @@ pub(super) fn variable_called(ladder: &Ladder, name: &str) -> Option<Result<Vari
     known(root).then(|| variable(ladder, root))
 }
 
-/// The variable that a name belongs to: of `t1.Q` the timer `t1`.
+/// The variable that a name belongs to: of `t1.Q` the timer `t1`, of a bit the
+/// word, since what is a part of another thing cannot be called otherwise.
 pub(super) fn root<'n>(ladder: &Ladder, name: &'n str) -> &'n str {
     let mut wholes: Vec<&str> = name
         .match_indices(['.', '[', '^'])
@@ -63,10 +64,6 @@ pub(super) fn root<'n>(ladder: &Ladder, name: &'n str) -> &'n str {
         .filter(|whole| !whole.is_empty())
         .collect();
     wholes.push(name);
-    let declared = |it: &&&str| ladder.program().declarations.find(it).is_some();
-    if let Some(whole) = wholes.iter().rev().find(declared) {
-        return whole;
-    }
     let used = |it: &&&str| ladder.names.of(it).next().is_some();
     wholes.iter().find(used).unwrap_or(&name)
 }

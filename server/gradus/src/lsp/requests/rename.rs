@@ -35,8 +35,8 @@ pub fn answer(query: &Query, at: Position, new: &str) -> Option<Result<Workspace
     let spec = pair.spec().map(|it| &**it);
     let ladder = pair.ladder().map(|it| &**it);
     let found = match query.spec() {
-        Some(spec) => ide::rename_in_spec(spec, ladder, offset, new),
-        None => ide::rename_in_ladder(ladder?, spec, offset, new),
+        Some(spec) => ide::rename_in_spec(spec, ladder, offset, new, &query.budget),
+        None => ide::rename_in_ladder(ladder?, spec, offset, new, &query.budget),
     }?;
     let edits = found.map(|renaming| {
         let mut changes = Changes::new(format!("Rename {} to {new}", renaming.old));
