@@ -104,6 +104,24 @@ fn boxes_are_snippets_where_the_client_has_them() {
 }
 
 #[test]
+fn of_very_many_variables_those_are_sent_that_hold_what_is_typed() {
+    let inputs: String = (0..1500)
+        .map(|number| format!("input x{number}\n"))
+        .collect();
+    let mut client = client();
+    let items = completed(&mut client, "a.ladder", &format!("{inputs}rung: $0"), false);
+    assert_eq!(items.len(), 1000);
+    let items = completed(
+        &mut client,
+        "b.ladder",
+        &format!("{inputs}rung: X149$0"),
+        false,
+    );
+    assert_eq!(labels(&items)[..3], ["x149", "x1490", "x1491"]);
+    assert_eq!(items.len(), 11);
+}
+
+#[test]
 fn in_neutral_text_instructions_and_tags_can_be_typed() {
     let mut client = client();
     let items = completed(

@@ -208,10 +208,11 @@ pub(crate) fn why(succession: &Succession, ladder: &Ladder, budget: &Budget) -> 
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use super::*;
 
-    const TANK: &str = "\
+    /// Two valves, of which the second follows the first.
+    pub(crate) const TANK: &str = "\
 input s
 input ls2
 input ls3

@@ -73,6 +73,15 @@ pub(crate) fn code(text: &str, part: Range<usize>) -> Vec<Token> {
     tokens
 }
 
+/// Whether a token ends an operand: behind it stands an operator, if anything.
+pub(crate) fn ends_operand(kind: Option<TokenKind>) -> bool {
+    use TokenKind as T;
+    matches!(
+        kind,
+        Some(T::Name | T::Quoted | T::Close | T::Number | T::Time)
+    )
+}
+
 /// The statement of rung notation at the byte `offset`: whole lines, without
 /// the end of the last. A rung goes on to the next line that begins a statement
 /// or is blank, everything else ends with its line.

@@ -18,7 +18,7 @@ use super::config::Config;
 use super::document::Document;
 use super::key::FileKey;
 use super::log::Log;
-use super::query::{self, about};
+use super::query::{self, Query, about};
 use super::world::State;
 use super::{parent, publish, requests, telling};
 
@@ -74,6 +74,19 @@ impl Server {
     ) -> Result<requests::content::Content> {
         let world = self.shared.state.world();
         query::elsewhere(move |cancel| requests::content::answer(&world, &params, cancel)).await?
+    }
+
+    /// Answers a request about a place of a document.
+    async fn at<T: Send + 'static>(
+        &self,
+        place: TextDocumentPositionParams,
+        answer: fn(&Query, Position) -> Option<T>,
+    ) -> Result<Option<T>> {
+        let (world, position) = (self.shared.state.world(), place.position);
+        about(world, place.text_document.uri, move |query| {
+            answer(query, position)
+        })
+        .await
     }
 
     async fn inline_completion(
@@ -245,12 +258,7 @@ impl LanguageServer for Server {
 
     async fn completion(&self, params: CompletionParams) -> Result<Option<CompletionResponse>> {
         let at = params.text_document_position;
-        about(
-            self.shared.state.world(),
-            at.text_document.uri,
-            move |query| requests::completion::answer(query, at.position),
-        )
-        .await
+        self.at(at, requests::completion::answer).await
     }
 
     async fn completion_resolve(&self, mut item: CompletionItem) -> Result<CompletionItem> {
@@ -269,12 +277,7 @@ impl LanguageServer for Server {
 
     async fn signature_help(&self, params: SignatureHelpParams) -> Result<Option<SignatureHelp>> {
         let at = params.text_document_position_params;
-        about(
-            self.shared.state.world(),
-            at.text_document.uri,
-            move |query| requests::signature_help::answer(query, at.position),
-        )
-        .await
+        self.at(at, requests::signature_help::answer).await
     }
 
     async fn formatting(&self, params: DocumentFormattingParams) -> Result<Option<Vec<TextEdit>>> {
@@ -303,24 +306,15 @@ impl LanguageServer for Server {
         params: DocumentOnTypeFormattingParams,
     ) -> Result<Option<Vec<TextEdit>>> {
         let at = params.text_document_position;
-        about(
-            self.shared.state.world(),
-            at.text_document.uri,
-            move |query| requests::formatting::on_type(query, at.position),
-        )
-        .await
+        self.at(at, requests::formatting::on_type).await
     }
 
     async fn prepare_rename(
         &self,
         params: TextDocumentPositionParams,
     ) -> Result<Option<PrepareRenameResponse>> {
-        let found = about(
-            self.shared.state.world(),
-            params.text_document.uri,
-            move |query| requests::rename::prepare(query, params.position),
-        );
-        found.await?.transpose()
+        let found = self.at(params, requests::rename::prepare).await?;
+        found.transpose()
     }
 
     async fn rename(&self, params: RenameParams) -> Result<Option<WorkspaceEdit>> {

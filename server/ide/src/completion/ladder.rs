@@ -175,16 +175,7 @@ impl Here<'_> {
         let text = &*self.ladder.text;
         let previous = rest.last();
         let kind = previous.map(|token| token.kind);
-        let follows_name = matches!(
-            kind,
-            Some(
-                TokenKind::Name
-                    | TokenKind::Quoted
-                    | TokenKind::Close
-                    | TokenKind::Number
-                    | TokenKind::Time
-            )
-        );
+        let follows_name = statement::ends_operand(kind);
         let read = || self.variables(Wanted::Read);
         match part(rest) {
             Part::Head if self.quoted || previous.is_some_and(|it| it.text(text) == "label") => {

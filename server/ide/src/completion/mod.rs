@@ -5,6 +5,8 @@
 //! the same for all.
 
 mod boxes;
+mod decision;
+mod known;
 mod ladder;
 mod neutral;
 mod spec;

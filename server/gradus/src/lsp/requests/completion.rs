@@ -23,6 +23,10 @@ pub struct Remembered {
     variable: String,
 }
 
+/// Items that are sent at once. Of more, those that hold what is typed so far;
+/// of fewer, all: clients sift by themselves.
+const MOST: usize = 1000;
+
 /// What can be typed at a position, best first.
 pub fn answer(query: &Query, at: Position) -> Option<CompletionResponse> {
     let offset = query.offset(at);
@@ -37,11 +41,22 @@ pub fn answer(query: &Query, at: Position) -> Option<CompletionResponse> {
         ),
         None => ide::complete_in_ladder(query.document.ladder()?, offset),
     }?;
-    let typed = completions.span;
-    let text = query.document.rope.byte_slice(typed.range()).to_string();
+    let span = completions.span;
+    let text = query.document.rope.byte_slice(span.range()).to_string();
     let is_quoted = text.starts_with('"');
-    let range = query.range(typed);
-    let items = completions.items.into_iter().enumerate();
+    let range = query.range(span);
+    let mut found = completions.items;
+    let is_incomplete = found.len() > MOST;
+    if is_incomplete {
+        let typed = text.get(..offset.saturating_sub(span.range().start));
+        let typed = typed
+            .unwrap_or(&text)
+            .trim_start_matches('"')
+            .to_lowercase();
+        found.retain(|it| it.label.to_lowercase().contains(&typed));
+        found.truncate(MOST);
+    }
+    let items = found.into_iter().enumerate();
     let item = |(at, it): (usize, ide::Completion)| {
         let abilities = &query.world.abilities;
         let snippet = it.snippet.filter(|_| abilities.snippets);
@@ -78,9 +93,7 @@ pub fn answer(query: &Query, at: Position) -> Option<CompletionResponse> {
         }
     };
     Some(CompletionResponse::List(CompletionList {
-        // The best decisions depend on what is typed behind the word, not on
-        // the word: clients sift by themselves.
-        is_incomplete: false,
+        is_incomplete,
         items: items.map(item).collect(),
     }))
 }
