@@ -23,11 +23,11 @@ pub(super) fn at(ladder: &Ladder, offset: usize) -> Option<Result<(Variable, Spa
         |it: &std::ops::Range<usize>| Span::new(start + it.start, start + it.end).touches(offset);
     let piece = pieces(format, text).into_iter().find(touches);
     let Some(piece) = piece else {
-        let why = match format {
-            Format::Ladder => "stands no name",
-            _ => "stands a member, an address or a value; names are renamed where they begin",
-        };
-        return Some(Err(Refusal(format!("here {why}"))));
+        return Some(Err(Refusal(
+            "what stands here is a value, an address or a part of something else, and has no \
+             name of its own"
+                .to_owned(),
+        )));
     };
     let written = &text[piece.clone()];
     // The name of the whole place, or of one variable in a term.
@@ -80,7 +80,9 @@ pub(super) fn rename(
     }
     let edits: Vec<Edit> = edits.into_values().collect();
     let text = edited(&ladder.text, &edits);
-    if let Some(line) = leftover::line_of(ladder, &edits, &text, &variable.local) {
+    // In other letters, where those are the same, the name is everywhere still.
+    let is_other = !is_same(format, new, &variable.local);
+    if is_other && let Some(line) = leftover::line_of(ladder, &edits, &text, &variable.local) {
         return Err(Refusal(format!(
             "`{}` also stands in line {line}, where it cannot be renamed safely",
             variable.local
@@ -172,7 +174,8 @@ fn declared_at<'l>(
     variable: &Variable,
     mention: &Mention,
 ) -> Option<(Span, &'l str)> {
-    if mention.usage != Usage::Declared || ladder.program().format != Format::Ladder {
+    let is_it = mention.usage == Usage::Declared && mention.name == variable.name;
+    if !is_it || ladder.program().format != Format::Ladder {
         return None;
     }
     let whole = statement::line(&ladder.text, mention.span.range().start);

@@ -99,6 +99,9 @@ pub fn rename_in_spec(
         (Ok((Target::Variable(it), _)), Some(ladder)) => {
             variable(&it, ladder, Some(spec), new, budget)
         }
+        (Ok((Target::Own(own), _)), Some(ladder)) if own.is_value() && has(ladder, new) => {
+            Err(Refusal(format!("the ladder has a `{new}` already")))
+        }
         (Ok((Target::Own(own), _)), _) => spec::rename(spec, &own, new).map(|edits| Renaming {
             old: own.name.to_string(),
             ladder: Vec::new(),
@@ -107,6 +110,18 @@ pub fn rename_in_spec(
         (Ok((Target::Variable(_), _)), None) => return None,
     };
     Some(renamed)
+}
+
+fn has(ladder: &Ladder, name: &str) -> bool {
+    ladder.names.of(name).next().is_some()
+}
+
+impl Own {
+    /// Whether it has a value that expressions can name, as variables of the
+    /// ladder have.
+    fn is_value(&self) -> bool {
+        matches!(self.role, Role::Step | Role::Variable | Role::Instance)
+    }
 }
 
 fn variable(

@@ -168,6 +168,7 @@ fn neutral_text_and_l5x_are_renamed_without_regard_to_case() {
         "go",
         "XIC(go)[XIC(go),XIC(list[go])]CPT(x,go + 1)OTE(run);",
     );
+    check("XIC(Start$0)OTE(start);", "START", "XIC(START)OTE(START);");
 }
 
 #[test]
@@ -186,6 +187,7 @@ fn what_would_change_the_meaning_is_refused() {
     refused("XIC(a$0)OTE(b);", "not a tag", "letters, digits");
     refused("XIC(a$0)OTE(b);", "OR", "a word of the language");
     refused("XIC(a$0)OTE(B);", "b", "already");
+    refused("rung: x > 5$0 -> b\n", "y", "has no name of its own");
     let (ladder, _) = read("rung: a -> b\n", "");
     let taken = renamed("rung: a$0 -> b\n", "Step fill\nInput a\n", "fill");
     assert_eq!(taken, Err("the spec has a step `fill` already".to_owned()));
@@ -295,6 +297,8 @@ fn instances_take_the_steps_of_their_part_along() {
 #[test]
 fn a_step_cannot_take_the_name_of_a_variable() {
     let spec = "Step X$01\nInput m\nTransition t1\nTransitions:\nt1: X1*m |- @X1\n";
+    let refusal = renamed("rung: a -> b\n", spec, "b");
+    assert_eq!(refusal, Err("the ladder has a `b` already".to_owned()));
     let refusal = renamed("", spec, "m");
     assert_eq!(
         refusal,
