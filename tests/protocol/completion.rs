@@ -173,6 +173,44 @@ fn a_spec_goes_on_with_decisions_best_first() {
     );
 }
 
+/// What the ladder gives once `v1 -> v2` is accepted, but for one rule.
+pub const LACKING: &str = "\
+Step v1_waits  // nothing runs yet
+Step Xv1 for v1
+Step Dv1  // v1 has ended; waits for what follows
+Step Xv2 for v2
+Transition v1_waits_to_v1, v1_to_Dv1, Dv1_to_v2, v2_to_v1_waits
+Input s, ls2, ls3
+Output v1, v2
+Marking v1_waits
+
+Transitions:
+v1_waits_to_v1: v1_waits*s*/ls2 |- @Xv1
+$0
+Dv1_to_v2: Dv1*ls2*/ls3 |- @Xv2
+v2_to_v1_waits: Xv2*ls3 |- @v1_waits
+
+Steps:
+Xv1: |- v1
+Xv2: |- v2
+
+//! accept v1 -> v2
+";
+
+#[test]
+fn a_rule_that_the_ladder_gives_and_the_spec_lacks_comes_first() {
+    let mut client = client();
+    client.open("tank.ladder", TANK);
+    let items = completed(&mut client, "tank.grafcet", LACKING, false);
+    assert_eq!(edit(&items[0]), ("v1_to_Dv1: Xv1*ls2 |- @Dv1", 0, 0));
+    assert_eq!(items[0].detail.as_deref(), Some("the ladder gives it"));
+    let reason = "The ladder goes from Xv1 to Dv1 on ls2; the spec has no such rule.";
+    assert_eq!(
+        items[0].documentation,
+        Some(Documentation::String(reason.to_owned()))
+    );
+}
+
 #[test]
 fn weaker_evidence_than_the_user_wants_is_left_out() {
     let settings: Value = serde_json::json!({ "suggestions": { "evidence": "handover" } });

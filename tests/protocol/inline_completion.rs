@@ -5,7 +5,7 @@ use tower_lsp::ls_types::{
     InlineCompletionResponse, InlineCompletionTriggerKind, OneOf,
 };
 
-use crate::completion::TANK;
+use crate::completion::{LACKING, TANK};
 use crate::{client, client_like};
 
 /// The ghost text at the cursor of the spec beside the tank's ladder.
@@ -48,6 +48,13 @@ fn what_is_typed_is_gone_on_with() {
     assert_eq!(items.len(), 1);
     assert_eq!(items[0].range.expect("a range").end.character, 13);
     assert_eq!(ghosts("//! accept v2$0\n"), []);
+}
+
+#[test]
+fn a_rule_that_is_missing_is_shown_where_it_belongs() {
+    let items = ghosts(LACKING);
+    let lines: Vec<&str> = items.iter().map(|it| &*it.insert_text).collect();
+    assert_eq!(lines, ["v1_to_Dv1: Xv1*ls2 |- @Dv1"]);
 }
 
 #[test]

@@ -162,6 +162,25 @@ fn the_same_program_is_renamed_in_every_format() {
 }
 
 #[test]
+fn neutral_text_takes_only_what_a_controller_takes() {
+    let mut client = client();
+    let marked = client.open(
+        "rungs.txt",
+        "XIC(Start$0)\r\nTON(T1,?,?);\r\nXIC(T1.DN)XIO(start)OTE(run);\r\n",
+    );
+    let at = marked.position(0, false);
+    let edit = rename(&mut client, "rungs.txt", at, "go").expect("renamed");
+    let new = "XIC(go)\r\nTON(T1,?,?);\r\nXIC(T1.DN)XIO(go)OTE(run);\r\n";
+    assert_eq!(after(&client, &edit, "rungs.txt"), new);
+    let refused = rename(&mut client, "rungs.txt", at, "fill valve").expect_err("a refusal");
+    assert_eq!(
+        refused.message,
+        "`fill valve` cannot be a name: in this format names are letters, digits and single \
+         underscores, and begin with no digit"
+    );
+}
+
+#[test]
 fn what_can_be_renamed_is_told_before() {
     let mut client = client();
     let marked = client.open(
