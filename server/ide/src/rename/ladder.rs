@@ -138,7 +138,7 @@ fn is_free(ladder: &Ladder, variable: &Variable, new: &str) -> Result<(), Refusa
     }
 }
 
-/// The bytes at a place that name the variable; quotes left out.
+/// The bytes at a place that name the variable, with the quotes around them.
 fn places(ladder: &Ladder, variable: &Variable, mention: &Mention) -> Vec<Span> {
     let format = ladder.program().format;
     let (span, text) = match declared_at(ladder, variable, mention) {
@@ -164,7 +164,12 @@ fn places(ladder: &Ladder, variable: &Variable, mention: &Mention) -> Vec<Span> 
     pieces(format, text)
         .into_iter()
         .filter(|piece| is_it(&text[piece.clone()]))
-        .map(|piece| Span::new(start + piece.start, start + piece.end))
+        .map(|piece| {
+            let is_quoted =
+                text[..piece.start].ends_with('"') && text[piece.end..].starts_with('"');
+            let quote = usize::from(is_quoted && format == Format::Ladder);
+            Span::new(start + piece.start - quote, start + piece.end + quote)
+        })
         .collect()
 }
 
@@ -188,15 +193,9 @@ fn declared_at<'l>(
 
 /// The edit of a token of rung notation, in quotes where it needs them.
 fn respelled(ladder: &Ladder, span: Span, variable: &Variable, new: &str) -> Edit {
-    let text = &*ladder.text;
-    let range = span.range();
-    let rest = &text[range.clone()][variable.local.len()..];
-    let is_quoted = text[..range.start].ends_with('"') && text[range.end..].starts_with('"');
-    let span = match is_quoted {
-        true => Span::new(range.start - 1, range.end + 1),
-        false => span,
-    };
-    debug_assert_eq!(within_quotes(&text[span.range()], span).range(), range);
+    let text = &ladder.text[span.range()];
+    let inner = within_quotes(text, Span::new(0, text.len())).range();
+    let rest = &text[inner][variable.local.len()..];
     Edit {
         span,
         text: spell(&format!("{new}{rest}")),

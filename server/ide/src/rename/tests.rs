@@ -124,6 +124,15 @@ fn it_is_renamed_from_the_spec_as_well() {
 }
 
 #[test]
+fn names_may_hold_any_letters() {
+    check(
+        "rung: \u{e4}$0 * \u{e4}.\u{f6} -> \u{fc}\u{e4}\n",
+        "\u{1f6d1}",
+        "rung: \"\u{1f6d1}\" * \"\u{1f6d1}.\u{f6}\" -> \u{fc}\u{e4}\n",
+    );
+}
+
+#[test]
 fn members_and_terms_follow() {
     check(
         "rung: a * t$01.Q -> TON(t1, 5s)\nrung: t1.Q * (t1.ET > 5) -> b\n",
@@ -167,6 +176,11 @@ fn neutral_text_and_l5x_are_renamed_without_regard_to_case() {
         "XIC(Start$0)[XIC(start),XIC(list[START])]CPT(x,start + 1)OTE(run);",
         "go",
         "XIC(go)[XIC(go),XIC(list[go])]CPT(x,go + 1)OTE(run);",
+    );
+    check(
+        "XIC(list[I$0])XIC(i)OTE(r);",
+        "n",
+        "XIC(list[n])XIC(n)OTE(r);",
     );
     check("XIC(Start$0)OTE(start);", "START", "XIC(START)OTE(START);");
 }

@@ -45,70 +45,37 @@ pub(super) fn is_part_of(name: &str, whole: &str) -> bool {
 /// The variable called `name`, or of which that is a member or a value. `None`
 /// if the ladder has none of that name.
 pub(super) fn variable_called(ladder: &Ladder, name: &str) -> Option<Result<Variable, Refusal>> {
-    let register = name.split_once('=').map(|(register, _)| register);
     let known = |name: &str| ladder.names.of(name).next().is_some();
-    let name = match register.filter(|_| !known(name)) {
-        Some(register) => register,
-        None => name,
-    };
+    let register = name.split_once('=').map(|(register, _)| register);
+    let name = register.filter(|_| !known(name)).unwrap_or(name);
     let root = root(ladder, name);
-    known(root).then(|| variable(ladder, root))
+    if known(root) {
+        return Some(variable(ladder, root));
+    }
+    // In an index, a name may stand in other letters.
+    let format = ladder.program().format;
+    let mut all = ladder.names.all().iter();
+    let same = all.find(|it| ignores_case(format) && is_same(format, &it.name, root))?;
+    Some(variable(ladder, &same.name))
 }
 
 /// The variable that a name belongs to: of `t1.Q` the timer `t1`, of a bit the
 /// word, since what is a part of another thing cannot be called otherwise.
-pub(super) fn root<'n>(ladder: &Ladder, name: &'n str) -> &'n str {
-    let mut wholes: Vec<&str> = name
+fn root<'n>(ladder: &Ladder, name: &'n str) -> &'n str {
+    let wholes = name
         .match_indices(['.', '[', '^'])
-        .map(|(at, _)| &name[..at])
-        .filter(|whole| !whole.is_empty())
-        .collect();
-    wholes.push(name);
-    let used = |it: &&&str| ladder.names.of(it).next().is_some();
-    wholes.iter().find(used).unwrap_or(&name)
+        .map(|(at, _)| &name[..at]);
+    let used = |it: &&str| !it.is_empty() && ladder.names.of(it).next().is_some();
+    wholes.into_iter().find(used).unwrap_or(name)
 }
 
 fn variable(ladder: &Ladder, name: &str) -> Result<Variable, Refusal> {
-    let format = ladder.program().format;
     if name.starts_with('%') || is_literal(name) {
         return Err(Refusal(format!(
             "`{name}` is an address or a value, not a name"
         )));
     }
-    let mut local = None;
-    for mention in ladder.names.of(name) {
-        let text = ladder.text.get(mention.span.range()).unwrap_or_default();
-        let written = &ladder.text[within_quotes(text, mention.span).range()];
-        let is_name = is_same(format, written, name)
-            || is_same(
-                format,
-                &format!(".{written}"),
-                &name[name.len().saturating_sub(written.len() + 1)..],
-            );
-        if is_name && !written.is_empty() {
-            // As it is declared, where it is.
-            if mention.usage == Usage::Declared || local.is_none() {
-                local = Some(written.to_owned());
-            }
-        }
-    }
-    let parts = ladder
-        .names
-        .all()
-        .iter()
-        .filter(|it| is_part_of(&it.name, name));
-    let local = local.or_else(|| {
-        parts.into_iter().find_map(|it| {
-            let text = ladder.text.get(it.span.range())?;
-            let first = pieces(format, text).into_iter().next()?;
-            let written = &text[first];
-            let start = written
-                .get(..name.len())
-                .filter(|it| is_same(format, it, name));
-            start.map(str::to_owned)
-        })
-    });
-    match local {
+    match as_declared(ladder, name).or_else(|| as_whole(ladder, name)) {
         Some(local) => Ok(Variable {
             name: name.into(),
             local,
@@ -117,6 +84,37 @@ fn variable(ladder: &Ladder, name: &str) -> Result<Variable, Refusal> {
             "`{name}` is never written by that name; rename it where it is declared"
         ))),
     }
+}
+
+/// How a text writes the variable where it stands alone; as it is declared,
+/// where it is.
+fn as_declared(ladder: &Ladder, name: &str) -> Option<String> {
+    let format = ladder.program().format;
+    let mut mentions: Vec<_> = ladder.names.of(name).collect();
+    mentions.sort_by_key(|it| it.usage != Usage::Declared);
+    let with_scope = |written: &str| {
+        let scope = name.strip_suffix(written)?;
+        scope.ends_with(['.', '/', ':']).then_some(())
+    };
+    mentions.into_iter().find_map(|mention| {
+        let text = ladder.text.get(mention.span.range())?;
+        let written = ladder.text.get(within_quotes(text, mention.span).range())?;
+        let is_name = is_same(format, written, name) || with_scope(written).is_some();
+        (is_name && !written.is_empty()).then(|| written.to_owned())
+    })
+}
+
+/// How a text writes the variable where only parts of it stand.
+fn as_whole(ladder: &Ladder, name: &str) -> Option<String> {
+    let format = ladder.program().format;
+    let all = ladder.names.all().iter();
+    let mut parts = all.filter(|it| is_part_of(&it.name, name));
+    parts.find_map(|it| {
+        let text = ladder.text.get(it.span.range())?;
+        let first = pieces(format, text).into_iter().next()?;
+        let start = text[first].get(..name.len())?;
+        is_same(format, start, name).then(|| start.to_owned())
+    })
 }
 
 /// The bytes of a name without the quotes around it.
