@@ -85,6 +85,36 @@ fn ladders_answer_everywhere() {
 }
 
 #[test]
+fn what_is_cut_or_holds_odd_characters_answers_too() {
+    let budget = Budget::default();
+    for (_, text) in texts(&["ladder", "txt", "L5X", "L5K", "xml", "grafcet"]) {
+        for part in 1..4 {
+            let mut cut: String = text.chars().take(text.chars().count() * part / 4).collect();
+            cut += ["\u{1f6d1}", "\"\u{e4}", "<![CDATA[\u{fc}"][part - 1];
+            let ladder = Ladder::read(cut.as_str().into(), &budget);
+            let spec = Spec::read(cut.as_str().into());
+            for back in 0..12 {
+                // Inside of characters, too, and past the end.
+                let offset = (cut.len() + 2).saturating_sub(back);
+                complete_in_ladder(&ladder, offset);
+                complete_in_spec(&spec, Some(&ladder), offset, Evidence::Possible, &budget);
+                next_at(&spec, &ladder, offset, Evidence::Possible, &budget);
+                signature(&ladder, offset);
+                rename_in_ladder(&ladder, Some(&spec), offset, "\u{e4}", &budget);
+                rename_in_spec(&spec, Some(&ladder), offset, NEW, &budget);
+                lay_out_ladder(&ladder, Extent::Statements(Span::new(offset / 2, offset)));
+                lay_out_spec(&spec, Extent::Line(offset));
+            }
+            let names = ladder.names.all().iter();
+            for mention in names.step_by(1 + ladder.names.all().len() / 5) {
+                let offset = mention.span.range().start;
+                rename_in_ladder(&ladder, None, offset, NEW, &budget);
+            }
+        }
+    }
+}
+
+#[test]
 fn specs_answer_everywhere() {
     let budget = Budget::default();
     for (path, text) in texts(&["grafcet"]) {

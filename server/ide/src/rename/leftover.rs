@@ -68,6 +68,8 @@ const WORDS: [&str; 6] = [
     "comment",
 ];
 
+const CDATA: &str = "<![CDATA[";
+
 /// The XML text with blanks for names of elements and attributes, comments, and
 /// the elements that hold words. Its lines stay where they are.
 fn without_words_in_xml(text: &str) -> String {
@@ -78,10 +80,10 @@ fn without_words_in_xml(text: &str) -> String {
         rest = &rest[at..];
         let name_end = |tag: &str| tag.find(|c: char| c.is_whitespace() || "/>".contains(c));
         let element = &rest[1..1 + name_end(&rest[1..]).unwrap_or(0)];
-        let (kept, length) = if rest.starts_with("<![CDATA[") {
-            let length = rest.find("]]>").map_or(rest.len(), |end| end + 3);
-            let inner = &rest["<![CDATA[".len()..length.saturating_sub(3).max("<![CDATA[".len())];
-            (inner.to_owned(), length)
+        let (kept, length) = if let Some(data) = rest.strip_prefix(CDATA) {
+            let inner = data.split("]]>").next().unwrap_or_default();
+            let length = CDATA.len() + inner.len() + "]]>".len();
+            (inner.to_owned(), length.min(rest.len()))
         } else if rest.starts_with("<!--") {
             let length = rest.find("-->").map_or(rest.len(), |end| end + 3);
             (line_ends(&rest[..length]), length)
