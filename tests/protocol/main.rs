@@ -6,14 +6,18 @@
 
 mod code_action;
 mod commands;
+mod completion;
 mod folding;
+mod formatting;
 mod hierarchy;
 mod hover;
-mod hover;
+mod inline_completion;
 mod lenses;
 mod links;
 mod navigation;
+mod rename;
 mod selection;
+mod signature_help;
 mod symbols;
 mod tokens;
 

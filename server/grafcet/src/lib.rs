@@ -18,6 +18,6 @@ pub mod rules;
 
 pub use model::*;
 pub use rules::{
-    Formatted, Mention, Places, Reading, Role, RulePlace, SectionPlace, action_text, decision_text,
-    format, read, rewrite, write,
+    Formatted, Mention, Places, Reading, Role, RulePlace, SectionPlace, action_rule, action_text,
+    decision_text, format, read, rewrite, spelled, spelled_state, transition_rule, write,
 };

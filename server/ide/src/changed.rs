@@ -50,7 +50,7 @@ impl Lines {
 }
 
 /// The edit that puts `new` in the place `at` of `text`, without what stays.
-fn narrowed(text: &str, at: std::ops::Range<usize>, new: &str) -> Edit {
+pub(crate) fn narrowed(text: &str, at: std::ops::Range<usize>, new: &str) -> Edit {
     let old = &text[at.clone()];
     let same = |(a, b): &(char, char)| a == b;
     let bytes = |(c, _): (char, char)| c.len_utf8();

@@ -17,12 +17,13 @@
 //!   same for specs: what folds, what a growing selection takes, and where a
 //!   text names the one beside it;
 //! * [`hierarchy`]: which step follows which;
-//! * [`tokens`]: what each name is, for colouring.
+//! * [`tokens`]: what each name is, for colouring;
 
 mod actions;
 mod change;
 mod changed;
 mod coil;
+mod completion;
 mod condition;
 pub mod decide;
 mod decided;
@@ -33,13 +34,19 @@ mod hints;
 mod hover;
 mod ladder;
 pub mod language;
+mod layout;
 mod lenses;
 mod link;
 mod names;
 pub mod navigate;
+mod next;
+mod rename;
 mod routine;
+mod section;
 mod selection;
+mod signature;
 mod spec;
+mod statement;
 pub mod symbols;
 pub mod tokens;
 
@@ -47,14 +54,24 @@ pub use actions::{Action, ActionKind, Effect, actions_in_ladder, actions_in_spec
 pub use change::{Change, Departing, changed_spec};
 pub use changed::{changed, edited};
 pub use coil::{Coil, Drawn, Part, Said, coil, coils, kind_word};
+pub use completion::{
+    Completion, CompletionKind, Completions, complete_in_ladder, complete_in_spec,
+};
 pub use condition::{legible, said};
 pub use decided::{Decided, Standing};
 pub use folding::{Fold, folds_in_ladder, folds_in_spec};
 pub use hints::{Hint, hints_in_ladder, hints_in_spec};
-pub use hover::{Block, Hover, hover_in_ladder, hover_in_spec};
+pub use hover::{Block, Hover, hover_in_ladder, hover_in_spec, hover_of_variable};
 pub use ladder::Ladder;
+pub use layout::{Extent, lay_out_ladder, lay_out_spec};
 pub use lenses::{Count, Lens, count, lenses_in_ladder, lenses_in_spec};
 pub use link::{link_in_ladder, link_in_spec};
 pub use names::{Mention, Names, Usage, element};
+pub use next::{Next, NextKind, next, next_at};
+pub use rename::{
+    Refusal, Renamable, Renaming, renamable_in_ladder, renamable_in_spec, rename_in_ladder,
+    rename_in_spec,
+};
 pub use selection::{selections_in_ladder, selections_in_spec};
+pub use signature::{Signature, signature};
 pub use spec::Spec;

@@ -22,3 +22,4 @@ mod xml;
 
 pub use model::*;
 pub use reading::{Reading, read};
+pub use rockwell::{Instruction, instruction, instructions};

@@ -11,8 +11,8 @@ use tower_lsp::ls_types::{
     DidOpenTextDocumentParams, DocumentDiagnosticParams, DocumentDiagnosticReport,
     DocumentDiagnosticReportResult, InitializeResult, Position, PublishDiagnosticsParams,
     RegistrationParams, TextDocumentContentChangeEvent, TextDocumentIdentifier, TextDocumentItem,
-    TextDocumentPositionParams, Uri, VersionedTextDocumentIdentifier, WorkDoneProgressCreateParams,
-    WorkspaceEdit,
+    TextDocumentPositionParams, TextEdit, Uri, VersionedTextDocumentIdentifier,
+    WorkDoneProgressCreateParams, WorkspaceEdit,
 };
 
 use super::{Marked, Profile, Wire};
@@ -196,6 +196,11 @@ impl Client {
     /// The text of an open document.
     pub fn text(&self, name: &str) -> &str {
         &self.open[name].1
+    }
+
+    /// The text of an open document after edits, as a client makes them.
+    pub fn edited(&self, name: &str, edits: &[TextEdit]) -> String {
+        super::cursor::edited(self.text(name), edits, self.profile.counts_bytes())
     }
 
     /// A place in a document, as many requests want it.

@@ -1,4 +1,6 @@
-use tower_lsp::ls_types::{Position, Range};
+use std::collections::HashMap;
+
+use tower_lsp::ls_types::{Position, Range, TextEdit};
 
 /// A text with its cursors taken out.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -58,6 +60,35 @@ pub fn selected(text: &str, range: Range) -> &str {
         found.expect("a position of the text")
     };
     &text[at(range.start)..at(range.end)]
+}
+
+/// `text` after edits, as a client makes them: all count on the old text, and
+/// none may reach into another.
+pub fn edited(text: &str, edits: &[TextEdit], counts_bytes: bool) -> String {
+    let mut offsets: Vec<usize> = text.char_indices().map(|(at, _)| at).collect();
+    offsets.push(text.len());
+    let places: HashMap<Position, usize> = offsets
+        .into_iter()
+        .rev()
+        .map(|at| (position(text, at, counts_bytes), at))
+        .collect();
+    let mut spans: Vec<(usize, usize, &str)> = edits
+        .iter()
+        .map(|edit| {
+            let at = |position| places[&position];
+            (at(edit.range.start), at(edit.range.end), &*edit.new_text)
+        })
+        .collect();
+    spans.sort_by_key(|(start, end, _)| (*start, *end));
+    let mut out = String::new();
+    let mut done = 0;
+    for (start, end, new) in spans {
+        assert!(done <= start, "edits reach into each other: {edits:?}");
+        out += &text[done..start];
+        out += new;
+        done = end;
+    }
+    out + &text[done..]
 }
 
 fn position(text: &str, offset: usize, counts_bytes: bool) -> Position {

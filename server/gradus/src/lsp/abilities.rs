@@ -45,6 +45,16 @@ pub struct Abilities {
     pub refreshes_tokens: bool,
     /// Snippets in completions.
     pub snippets: bool,
+    /// It shows Markdown beside completions.
+    pub markdown_in_completions: bool,
+    /// It shows what a completion is beside its name.
+    pub label_details: bool,
+    /// It takes the operands of a signature by their places in its label.
+    pub label_offsets: bool,
+    /// It shows ghost text.
+    pub inline_completions: bool,
+    /// It asks whether something can be renamed before it asks for a name.
+    pub prepares_renames: bool,
     /// It understands `gradus/status`.
     pub status: bool,
     /// It shows documents that the server makes.
@@ -68,6 +78,8 @@ impl Abilities {
             let all = client.experimental.as_ref();
             all.is_some_and(|it| it[name] == true)
         };
+        let completion_item =
+            document.and_then(|it| it.completion.as_ref()?.completion_item.as_ref());
         let pulls = document.is_some_and(|it| it.diagnostic.is_some());
         Self {
             encoding: Encoding::choose(general.and_then(|it| it.position_encodings.as_deref())),
@@ -107,6 +119,18 @@ impl Abilities {
             snippets: document
                 .and_then(|it| it.completion.as_ref()?.completion_item.as_ref())
                 .is_some_and(|it| it.snippet_support == Some(true)),
+            markdown_in_completions: completion_item
+                .and_then(|it| it.documentation_format.as_ref())
+                .is_some_and(|kinds| kinds.contains(&MarkupKind::Markdown)),
+            label_details: completion_item.is_some_and(|it| it.label_details_support == Some(true)),
+            label_offsets: document
+                .and_then(|it| it.signature_help.as_ref()?.signature_information.as_ref())
+                .and_then(|it| it.parameter_information.as_ref())
+                .is_some_and(|it| it.label_offset_support == Some(true)),
+            inline_completions: document.is_some_and(|it| it.inline_completion.is_some()),
+            prepares_renames: document
+                .and_then(|it| it.rename.as_ref())
+                .is_some_and(|it| it.prepare_support == Some(true)),
             status: experimental("gradusStatus"),
             virtual_documents: experimental("gradusVirtualDocuments"),
         }

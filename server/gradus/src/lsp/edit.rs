@@ -24,7 +24,6 @@ use super::world::World;
 #[derive(Clone, Debug)]
 pub struct Changes {
     label: String,
-    description: Option<String>,
     edited: Vec<(Arc<Document>, Vec<Edit>)>,
     created: Vec<(Uri, String)>,
 }
@@ -34,17 +33,9 @@ impl Changes {
     pub fn new(label: impl Into<String>) -> Self {
         Self {
             label: label.into(),
-            description: None,
             edited: Vec::new(),
             created: Vec::new(),
         }
-    }
-
-    /// Says more about what they are for.
-    #[must_use]
-    pub fn description(mut self, description: impl Into<String>) -> Self {
-        self.description = Some(description.into());
-        self
     }
 
     /// Changes a document, open or not, by `edits` that do not overlap. The
@@ -135,7 +126,7 @@ impl Changes {
         let annotation = ChangeAnnotation {
             label: self.label,
             needs_confirmation: None,
-            description: self.description,
+            description: None,
         };
         WorkspaceEdit {
             changes: None,

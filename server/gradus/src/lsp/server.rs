@@ -64,6 +64,7 @@ impl Server {
             end,
         })
         .custom_method("workspace/textDocumentContent", Self::virtual_document)
+        .custom_method("textDocument/inlineCompletion", Self::inline_completion)
         .finish()
     }
 
@@ -95,6 +96,17 @@ impl Server {
         let world = self.shared.state.world();
         about(world, at.text_document.uri, move |query| {
             work(query, at.position)
+        })
+        .await
+    }
+
+    async fn inline_completion(
+        &self,
+        params: InlineCompletionParams,
+    ) -> Result<Option<InlineCompletionResponse>> {
+        let uri = params.text_document_position.text_document.uri.clone();
+        about(self.shared.state.world(), uri, move |query| {
+            requests::inline_completion::answer(query, &params)
         })
         .await
     }
@@ -451,5 +463,76 @@ impl LanguageServer for Server {
             requests::tokens::range(query, params.range).map(Into::into)
         })
         .await
+    }
+
+    async fn completion(&self, params: CompletionParams) -> Result<Option<CompletionResponse>> {
+        let at = params.text_document_position;
+        self.at(at, requests::completion::answer).await
+    }
+
+    async fn completion_resolve(&self, mut item: CompletionItem) -> Result<CompletionItem> {
+        let data = item.data.clone().unwrap_or_default();
+        let Ok(remembered) = serde_json::from_value::<requests::completion::Remembered>(data)
+        else {
+            return Ok(item);
+        };
+        let uri = remembered.uri.clone();
+        item.documentation = about(self.shared.state.world(), uri, move |query| {
+            requests::completion::documentation(query, &remembered)
+        })
+        .await?;
+        Ok(item)
+    }
+
+    async fn signature_help(&self, params: SignatureHelpParams) -> Result<Option<SignatureHelp>> {
+        let at = params.text_document_position_params;
+        self.at(at, requests::signature_help::answer).await
+    }
+
+    async fn formatting(&self, params: DocumentFormattingParams) -> Result<Option<Vec<TextEdit>>> {
+        let uri = params.text_document.uri;
+        about(
+            self.shared.state.world(),
+            uri,
+            requests::formatting::document,
+        )
+        .await
+    }
+
+    async fn range_formatting(
+        &self,
+        params: DocumentRangeFormattingParams,
+    ) -> Result<Option<Vec<TextEdit>>> {
+        let uri = params.text_document.uri;
+        about(self.shared.state.world(), uri, move |query| {
+            requests::formatting::range(query, params.range)
+        })
+        .await
+    }
+
+    async fn on_type_formatting(
+        &self,
+        params: DocumentOnTypeFormattingParams,
+    ) -> Result<Option<Vec<TextEdit>>> {
+        let at = params.text_document_position;
+        self.at(at, requests::formatting::on_type).await
+    }
+
+    async fn prepare_rename(
+        &self,
+        params: TextDocumentPositionParams,
+    ) -> Result<Option<PrepareRenameResponse>> {
+        let found = self.at(params, requests::rename::prepare).await?;
+        found.transpose()
+    }
+
+    async fn rename(&self, params: RenameParams) -> Result<Option<WorkspaceEdit>> {
+        let at = params.text_document_position;
+        let found = about(
+            self.shared.state.world(),
+            at.text_document.uri,
+            move |query| requests::rename::answer(query, at.position, &params.new_name),
+        );
+        found.await?.transpose()
     }
 }

@@ -61,5 +61,5 @@ pub use format::{Formatted, format};
 pub use places::{Mention, Places, Role, RulePlace, SectionPlace};
 pub use read::{Reading, read};
 pub use rewrite::rewrite;
-pub use spell::action_text;
+pub use spell::{action_rule, action_text, spelled, spelled_state, transition_rule};
 pub use write::write;

@@ -11,8 +11,8 @@ use super::next_scan;
 use super::words::is_reserved;
 use crate::model::normal;
 use crate::{
-    Action, ActionKind, Effect, EnvironmentRule, Instance, Part, PartKind, Property, Situation,
-    Step, StepKind, Transition, Trigger, Variable,
+    Action, ActionKind, Effect, EnvironmentRule, Grafcet, Instance, Part, PartKind, Property,
+    Situation, Step, StepKind, Transition, Trigger, Variable,
 };
 
 /// A name in a declaration or a rule: in quotes where it is not plain, or is a
@@ -103,6 +103,30 @@ pub(crate) fn part(part: &Part) -> String {
             format!("Reusable {name_of}({})", names(parameters, ", "))
         }
     }
+}
+
+/// A transition's rule as a line of the section `Transitions:` of a text that
+/// holds `grafcet`.
+pub fn transition_rule(it: &Transition, grafcet: &Grafcet) -> String {
+    let steps = grafcet.steps().map(|step| step.name.clone()).collect();
+    transition(it, &steps)
+}
+
+/// An action's rule as a line of the section `Steps:`.
+pub fn action_rule(it: &Action) -> String {
+    action(it)
+}
+
+/// A name as rule texts write it: in quotes where it is not plain, or is one of
+/// their words.
+pub fn spelled(it: &str) -> String {
+    name(it)
+}
+
+/// A state of the ladder as rule texts write it: as other names, but the value
+/// of a register `Seq=10` without quotes.
+pub fn spelled_state(it: &str) -> String {
+    state(it)
 }
 
 /// A transition's rule, where `steps` are the names of steps.

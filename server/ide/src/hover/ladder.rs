@@ -60,6 +60,16 @@ fn is_plain(element: &Element) -> bool {
     matches!(element.kind, ElementKind::Contact(_) | ElementKind::Coil(_))
 }
 
+/// What is known of the variable called `name`, wherever it stands.
+pub fn hover_of_variable(
+    ladder: &Ladder,
+    spec: Option<&Spec>,
+    name: &Name,
+    budget: &Budget,
+) -> Hover {
+    of_variable(ladder, spec, name, Span::default(), budget)
+}
+
 /// What is known of a variable, shown at `span`.
 pub(super) fn of_variable(
     ladder: &Ladder,

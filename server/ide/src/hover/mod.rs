@@ -10,7 +10,7 @@ mod spec;
 
 use source::Span;
 
-pub use ladder::hover_in_ladder;
+pub use ladder::{hover_in_ladder, hover_of_variable};
 pub use spec::hover_in_spec;
 
 /// What is shown of the thing under the pointer.

@@ -194,6 +194,11 @@ pub(super) fn meaning(mnemonic: &str) -> Option<Meaning> {
     TABLE.get(place).map(|(_, meaning)| *meaning)
 }
 
+/// All mnemonics with what they mean, in alphabetical order.
+pub(super) fn all() -> impl Iterator<Item = (&'static str, Meaning)> {
+    TABLE.iter().copied()
+}
+
 use Meaning::{Binary, Box as Other, Coil, Compare, Contact, Counter, EdgeOutput, Timer, Unary};
 use Power::{Passes, Shapes};
 

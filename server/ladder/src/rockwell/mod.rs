@@ -28,9 +28,12 @@ mod operand;
 mod passage;
 mod program;
 mod project;
+mod reference;
 mod rung;
 mod values;
 mod xml;
+
+pub use reference::{Instruction, instruction, instructions};
 
 use crate::reading::{Reading, Source};
 
