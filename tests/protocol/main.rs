@@ -5,6 +5,9 @@
 //! every message that the protocol does not know or nobody expected.
 
 mod hover;
+mod lifecycle;
+mod misbehaving;
+mod raw;
 
 use end_to_end::lsp::{Client, Profile};
 

@@ -1,5 +1,5 @@
 use std::io::{BufRead, BufReader, Write};
-use std::process::{Child, ChildStdin, Command, ExitStatus, Stdio};
+use std::process::{Child, ChildStdin, ChildStdout, Command, ExitStatus, Stdio};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::time::{Duration, Instant};
 
@@ -11,6 +11,8 @@ pub struct Wire {
     server: Child,
     /// `None` once it was closed.
     input: Option<ChildStdin>,
+    /// `None` once somebody reads it.
+    output: Option<ChildStdout>,
     messages: Receiver<Value>,
 }
 
@@ -21,14 +23,30 @@ const PATIENCE: Duration = Duration::from_secs(120);
 impl Wire {
     /// Starts the server that `executable` is.
     pub fn start(executable: &str) -> Self {
-        let mut server = Command::new(executable)
-            .arg("lsp")
+        let mut wire = Self::unread(Command::new(executable).arg("lsp").stderr(Stdio::null()));
+        wire.listen();
+        wire
+    }
+
+    /// Starts the server that `command` runs; nobody reads what it says until
+    /// [`listen`](Self::listen).
+    pub fn unread(command: &mut Command) -> Self {
+        let mut server = command
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
-            .stderr(Stdio::null())
             .spawn()
             .expect("the server starts");
-        let output = server.stdout.take().expect("its standard output");
+        Self {
+            input: server.stdin.take(),
+            output: server.stdout.take(),
+            server,
+            messages: channel().1,
+        }
+    }
+
+    /// Begins to read what the server says.
+    pub fn listen(&mut self) {
+        let output = self.output.take().expect("an output that nobody reads");
         let (sender, messages) = channel();
         std::thread::spawn(move || {
             let mut output = BufReader::new(output);
@@ -38,11 +56,7 @@ impl Wire {
                 }
             }
         });
-        Self {
-            input: server.stdin.take(),
-            server,
-            messages,
-        }
+        self.messages = messages;
     }
 
     /// The server's number among processes.

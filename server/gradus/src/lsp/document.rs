@@ -67,19 +67,26 @@ impl Document {
         changes: Vec<TextDocumentContentChangeEvent>,
         encoding: Encoding,
     ) -> Self {
-        self.outdate();
-        let mut rope = self.rope.clone();
+        let mut after = self.renewed();
+        after.version = Some(version);
         for change in changes {
             match change.range {
-                Some(range) => replace(&mut rope, range, &change.text, encoding),
-                None => rope = Rope::from_str(&change.text),
+                Some(range) => replace(&mut after.rope, range, &change.text, encoding),
+                None => after.rope = Rope::from_str(&change.text),
             }
         }
+        after
+    }
+
+    /// The same document, of which nothing is worked out yet. This one is
+    /// outdated from now on, so that all work on it ends.
+    pub fn renewed(&self) -> Self {
+        self.outdate();
         Self {
             uri: self.uri.clone(),
             key: self.key.clone(),
-            version: Some(version),
-            rope,
+            version: self.version,
+            rope: self.rope.clone(),
             language_id: self.language_id.clone(),
             contents: OnceLock::new(),
             outdated: Cancel::default(),

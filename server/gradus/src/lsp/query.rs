@@ -7,6 +7,7 @@ use tower_lsp::jsonrpc::{Error, Result};
 use tower_lsp::ls_types::{Location, Position, Range, Uri};
 
 use super::document::Document;
+use super::fault;
 use super::guard::{internal, reason};
 use super::position::Encoding;
 use super::world::World;
@@ -142,7 +143,11 @@ where
 {
     let guard = CancelOnDrop::default();
     let cancel = guard.0.clone();
-    let done = tokio::task::spawn_blocking(move || work(cancel)).await;
+    let done = tokio::task::spawn_blocking(move || {
+        fault::forced(fault::WORK);
+        work(cancel)
+    })
+    .await;
     done.map_err(|error| match error.try_into_panic() {
         Ok(panic) => internal(reason(&*panic)),
         Err(_) => Error::request_cancelled(),
