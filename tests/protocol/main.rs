@@ -7,6 +7,8 @@
 mod hover;
 mod lifecycle;
 mod misbehaving;
+mod profiles;
+mod progress;
 mod raw;
 
 use end_to_end::lsp::{Client, Profile};

@@ -1,5 +1,6 @@
 use std::collections::{HashMap, VecDeque};
 use std::fs;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
@@ -136,16 +137,21 @@ impl Client {
 
     /// Replaces the first occurrence of `old` in an open document by `new`.
     pub fn replace(&mut self, name: &str, old: &str, new: &str) {
+        let at = self.text(name).find(old).expect("the old text");
+        self.edit(name, at..at + old.len(), new);
+    }
+
+    /// Replaces some bytes of an open document by `new`.
+    pub fn edit(&mut self, name: &str, bytes: Range<usize>, new: &str) {
         let (version, text) = self.open.get_mut(name).expect("an open document");
-        let at = text.find(old).expect("the old text");
         let marked = Marked {
             text: text.clone(),
-            cursors: vec![at, at + old.len()],
+            cursors: vec![bytes.start, bytes.end],
         };
-        let bytes = self.profile.counts_bytes();
-        let range =
-            tower_lsp::ls_types::Range::new(marked.position(0, bytes), marked.position(1, bytes));
-        text.replace_range(at..at + old.len(), new);
+        let counts_bytes = self.profile.counts_bytes();
+        let [start, end] = [0, 1].map(|cursor| marked.position(cursor, counts_bytes));
+        let range = tower_lsp::ls_types::Range::new(start, end);
+        text.replace_range(bytes, new);
         *version += 1;
         let version = *version;
         let change = TextDocumentContentChangeEvent {

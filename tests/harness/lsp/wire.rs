@@ -1,18 +1,17 @@
 use std::io::{BufRead, BufReader, Write};
-use std::process::{Child, ChildStdin, ChildStdout, Command, ExitStatus, Stdio};
-use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
+use std::process::{Child, ChildStderr, ChildStdin, Command, ExitStatus, Stdio};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, sync_channel};
 use std::time::{Duration, Instant};
 
 use serde_json::Value;
 
-/// A language server and its streams: messages go in and out as they are.
+/// A language server and its streams: messages go in and out as they are. What
+/// nobody receives stays in the pipe, as with a client that does not read.
 #[derive(Debug)]
 pub struct Wire {
     server: Child,
     /// `None` once it was closed.
     input: Option<ChildStdin>,
-    /// `None` once somebody reads it.
-    output: Option<ChildStdout>,
     messages: Receiver<Value>,
 }
 
@@ -23,31 +22,19 @@ const PATIENCE: Duration = Duration::from_secs(120);
 impl Wire {
     /// Starts the server that `executable` is.
     pub fn start(executable: &str) -> Self {
-        let mut wire = Self::unread(Command::new(executable).arg("lsp").stderr(Stdio::null()));
-        wire.listen();
-        wire
+        Self::run(Command::new(executable).arg("lsp").stderr(Stdio::null()))
     }
 
-    /// Starts the server that `command` runs; nobody reads what it says until
-    /// [`listen`](Self::listen).
-    pub fn unread(command: &mut Command) -> Self {
+    /// Starts the server that `command` runs.
+    pub fn run(command: &mut Command) -> Self {
         let mut server = command
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
             .spawn()
             .expect("the server starts");
-        Self {
-            input: server.stdin.take(),
-            output: server.stdout.take(),
-            server,
-            messages: channel().1,
-        }
-    }
-
-    /// Begins to read what the server says.
-    pub fn listen(&mut self) {
-        let output = self.output.take().expect("an output that nobody reads");
-        let (sender, messages) = channel();
+        let output = server.stdout.take().expect("its standard output");
+        // Nothing is read before somebody wants it.
+        let (sender, messages) = sync_channel(0);
         std::thread::spawn(move || {
             let mut output = BufReader::new(output);
             while let Some(message) = message(&mut output) {
@@ -56,7 +43,17 @@ impl Wire {
                 }
             }
         });
-        self.messages = messages;
+        Self {
+            input: server.stdin.take(),
+            server,
+            messages,
+        }
+    }
+
+    /// What the server writes on standard error, if the command that started it
+    /// says so.
+    pub fn errors(&mut self) -> ChildStderr {
+        self.server.stderr.take().expect("its standard error")
     }
 
     /// The server's number among processes.

@@ -140,7 +140,10 @@ fn initialize_is_answered_once() {
     let again = json!({ "processId": null, "rootUri": null, "capabilities": {} });
     assert_eq!(raw.refused("initialize", again), code::INVALID_REQUEST);
     // What the first said still counts: columns are bytes.
-    raw.open("untitled:a.ladder", "rung: \u{1f6d1}\u{1f6d1} * abc -> b\n");
+    raw.open(
+        "untitled:a.ladder",
+        "rung \"\u{1f6d1}\u{1f6d1}\": abc -> b\n",
+    );
     let answer = raw.ask("textDocument/hover", hover("untitled:a.ladder", 0, 18));
     assert_eq!(
         answer["result"]["range"]["start"]["character"], 17,

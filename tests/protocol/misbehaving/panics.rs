@@ -13,8 +13,7 @@ use crate::raw::{Raw, hover};
 fn faulty(place: &str, profile: Profile) -> Raw {
     let mut command = Command::new(env!("CARGO_BIN_EXE_gradus"));
     command.env("GRADUS_TEST_PANIC", place);
-    let mut wire = Wire::unread(command.arg("lsp").stderr(Stdio::null()));
-    wire.listen();
+    let wire = Wire::run(command.arg("lsp").stderr(Stdio::null()));
     let mut raw = Raw::on(wire);
     raw.initialize(profile);
     raw

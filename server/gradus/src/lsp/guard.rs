@@ -40,6 +40,11 @@ where
                 handler.await
             };
             match AssertUnwindSafe(guarded).catch_unwind().await {
+                // The library passes over what begins with `$/`, requests too.
+                Ok(Ok(None)) if method.starts_with("$/") => {
+                    let error = Error::method_not_found();
+                    Ok(id.map(|id| Response::from_error(id, error)))
+                }
                 Ok(answer) => answer,
                 Err(panic) => {
                     let error = internal(&format!("{method}: {}", reason(&*panic)));
