@@ -4,6 +4,7 @@
 //! compares what it is shown. [`Client`](end_to_end::lsp::Client) fails on
 //! every message that the protocol does not know or nobody expected.
 
+mod documents;
 mod hover;
 mod lifecycle;
 mod misbehaving;

@@ -14,8 +14,9 @@ const TANK: &str = "\
 program Tank
 rung: a -> v1
 rung: b -> v1
-rung: TRUE -> JUMP end
+rung: 1 -> jump end
 rung: c -> v2
+rung label end:
 ";
 
 /// Whether a client says this of itself.

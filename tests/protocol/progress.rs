@@ -7,11 +7,16 @@ use crate::raw::{Raw, large};
 
 const URI: &str = "untitled:large.ladder";
 
-/// Opens ladders, each larger than the one before, until one takes so long that
+/// Rungs of a ladder that may be done soon, where its end is waited for.
+const SHORT: usize = 500;
+
+/// Rungs of a ladder that is under way for a while.
+const LONG: usize = 16_000;
+
+/// Opens ladders, the first of so many rungs, the next twice as large, until one takes so long that
 /// the server wants to show it. Returns the token that it wants to use, and the
 /// question to answer.
-fn slow(raw: &mut Raw, pulls: bool) -> (Value, Value) {
-    let mut rungs = 10_000;
+fn slow(raw: &mut Raw, pulls: bool, mut rungs: usize) -> (Value, Value) {
     loop {
         raw.open(URI, &large(rungs));
         if pulls {
@@ -69,7 +74,7 @@ fn make_small(raw: &mut Raw, pulls: bool) {
 fn long_work_is_shown_from_its_begin_to_its_end() {
     for (profile, pulls) in [(Profile::Eglot, false), (Profile::VsCode, true)] {
         let mut raw = Raw::initialized(profile);
-        let (token, id) = slow(&mut raw, pulls);
+        let (token, id) = slow(&mut raw, pulls, SHORT);
         agree(&mut raw, &id);
         // What ends at once, when the client has agreed late, is not shown.
         let next = raw.wait_for(|it| it["method"] == "$/progress" || are_findings(it));
@@ -89,7 +94,7 @@ fn long_work_is_shown_from_its_begin_to_its_end() {
 fn long_work_ends_when_the_user_cancels_it() {
     for (profile, pulls) in [(Profile::Eglot, false), (Profile::VsCode, true)] {
         let mut raw = Raw::initialized(profile);
-        let (token, id) = slow(&mut raw, pulls);
+        let (token, id) = slow(&mut raw, pulls, LONG);
         agree(&mut raw, &id);
         raw.notify("window/workDoneProgress/cancel", json!({ "token": token }));
         let next = raw.wait_for(|it| it["method"] == "$/progress" || are_findings(it));
@@ -108,7 +113,7 @@ fn long_work_ends_when_the_user_cancels_it() {
 #[test]
 fn an_edit_ends_the_progress_of_what_was_before() {
     let mut raw = Raw::initialized(Profile::Eglot);
-    let (token, id) = slow(&mut raw, false);
+    let (token, id) = slow(&mut raw, false, LONG);
     agree(&mut raw, &id);
     make_small(&mut raw, false);
     let of_token = raw.kept().filter(|it| it["params"]["token"] == token);
@@ -123,7 +128,7 @@ fn an_edit_ends_the_progress_of_what_was_before() {
 fn a_client_that_refuses_or_does_not_answer_is_shown_nothing() {
     for refuses in [true, false] {
         let mut raw = Raw::initialized(Profile::Eglot);
-        let (_, id) = slow(&mut raw, false);
+        let (_, id) = slow(&mut raw, false, SHORT);
         if refuses {
             let error = json!({ "code": -32603, "message": "no" });
             raw.wire

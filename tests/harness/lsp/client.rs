@@ -107,6 +107,13 @@ impl Client {
 
     /// Opens a document. Cursors `$0`, `$1` in the text are taken out.
     pub fn open(&mut self, name: &str, text: &str) -> Marked {
+        let marked = Marked::of(text);
+        self.open_plain(name, &marked.text);
+        marked
+    }
+
+    /// Opens a document whose text has no cursors.
+    pub fn open_plain(&mut self, name: &str, text: &str) {
         let language = match Path::new(name).extension().and_then(|it| it.to_str()) {
             Some("ladder") => "gradus-ladder",
             Some("grafcet") => "grafcet",
@@ -114,24 +121,21 @@ impl Client {
             Some("txt") => "plaintext",
             _ => "xml",
         };
-        let marked = Marked::of(text);
         self.notify::<notification::DidOpenTextDocument>(DidOpenTextDocumentParams {
             text_document: TextDocumentItem {
                 uri: self.uri(name),
                 language_id: language.into(),
                 version: 1,
-                text: marked.text.clone(),
+                text: text.to_owned(),
             },
         });
-        self.open.insert(name.to_owned(), (1, marked.text.clone()));
-        marked
+        self.open.insert(name.to_owned(), (1, text.to_owned()));
     }
 
     /// Opens a file of the repository, copied into the client's folder.
     pub fn open_fixture(&mut self, path: &str, name: &str) -> String {
         let text = fs::read_to_string(crate::path(path)).expect("a fixture");
-        // No fixture has a `$` with a digit behind it.
-        self.open(name, &text);
+        self.open_plain(name, &text);
         text
     }
 
