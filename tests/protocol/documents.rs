@@ -17,7 +17,7 @@ use tower_lsp::ls_types::{
     Position, TextDocumentContentChangeEvent,
 };
 
-use crate::raw::{Raw, hover};
+use crate::raw::{Raw, hover, large};
 use crate::{client, client_like};
 
 const TANK: &str = "\
@@ -207,6 +207,20 @@ fn whole(text: &str) -> TextDocumentContentChangeEvent {
         range_length: None,
         text: text.to_owned(),
     }
+}
+
+#[test]
+fn a_text_made_from_a_document_that_changes_meanwhile_is_none() {
+    let mut raw = Raw::initialized(Profile::VsCode);
+    raw.open("untitled:a.ladder", &large(16_000));
+    let address = "gradus-conditions:/a.txt?untitled%3Aa%2Eladder";
+    let asked = raw.begin(Content::METHOD, json!({ "uri": address }));
+    raw.change("untitled:a.ladder", 2, ONCE);
+    assert_eq!(raw.end(&asked)["error"]["code"], -32801);
+    let answer = raw.ask(Content::METHOD, json!({ "uri": address }));
+    let text = answer["result"]["text"].as_str().expect("a text");
+    assert!(text.contains('b') && !text.contains("c0"), "{text}");
+    raw.finish();
 }
 
 const TWICE: &str = "input a\nrung: a -> b\nrung: a -> b\n";
