@@ -48,8 +48,10 @@ use log::Log;
 use server::Server;
 use transport::{Input, Output};
 
-/// Threads that answer requests. Some wait for the analysis that another does.
-const THREADS: usize = 32;
+/// Threads that answer requests. Most of them only wait for the analysis that
+/// another does: an editor asks for ten things at once of each document that it
+/// shows, and one large document must not keep all threads waiting.
+const THREADS: usize = 256;
 
 /// How long answers are worked out for a client that has closed its stream.
 const GRACE: Duration = Duration::from_secs(2);
