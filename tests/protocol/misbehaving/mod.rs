@@ -5,6 +5,8 @@
 mod cancelling;
 mod frames;
 mod messages;
+// Faults can be asked for in such builds only.
+#[cfg(debug_assertions)]
 mod panics;
 mod silent;
 
@@ -14,6 +16,7 @@ mod code {
     pub const INVALID_REQUEST: i64 = -32600;
     pub const METHOD_NOT_FOUND: i64 = -32601;
     pub const INVALID_PARAMS: i64 = -32602;
+    #[cfg(debug_assertions)]
     pub const INTERNAL_ERROR: i64 = -32603;
     pub const SERVER_NOT_INITIALIZED: i64 = -32002;
     pub const REQUEST_CANCELLED: i64 = -32800;

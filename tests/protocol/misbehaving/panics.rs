@@ -1,5 +1,5 @@
-//! Faults of the server itself. Tests run a build with debug assertions, where
-//! one can be asked for.
+//! Faults of the server itself, which a build with debug assertions can be
+//! asked for.
 
 use std::process::{Command, Stdio};
 
