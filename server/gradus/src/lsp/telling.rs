@@ -157,6 +157,9 @@ async fn tell(shared: &Arc<Shared>, key: &FileKey, in_vain: Cancel) {
     };
     let (uri, version) = (document.uri.clone(), document.version);
     let current = Arc::clone(&document);
+    // Of a ladder that changes meanwhile only a part may have been read.
+    let mut used = world.open_partners(key);
+    used.push(Arc::clone(&document));
     let budget = Budget {
         cancel: in_vain.clone(),
         ..Budget::default()
@@ -165,14 +168,13 @@ async fn tell(shared: &Arc<Shared>, key: &FileKey, in_vain: Cancel) {
     let found = elsewhere(move |_| publish::diagnostics(&world, &current, &budget)).await;
     drop(under_way);
     match found {
-        Ok(_) if document.is_outdated() || in_vain.is_cancelled() => {}
+        Ok(_) if in_vain.is_cancelled() || used.iter().any(|it| it.is_outdated()) => {}
         Ok(found) => shared.client.publish_diagnostics(uri, found, version).await,
         Err(error) => shared.log.line(error.message.into_owned()),
     }
 }
 
-/// Asks the client to ask again for what depends on settings and
-/// on files.
+/// Asks the client to ask again for what depends on settings and on files.
 pub fn refresh(shared: &Arc<Shared>) {
     let shared = Arc::clone(shared);
     tokio::spawn(async move {
