@@ -1,5 +1,6 @@
 use std::collections::{HashMap, VecDeque};
 use std::fs;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
@@ -106,6 +107,13 @@ impl Client {
 
     /// Opens a document. Cursors `$0`, `$1` in the text are taken out.
     pub fn open(&mut self, name: &str, text: &str) -> Marked {
+        let marked = Marked::of(text);
+        self.open_plain(name, &marked.text);
+        marked
+    }
+
+    /// Opens a document whose text has no cursors.
+    pub fn open_plain(&mut self, name: &str, text: &str) {
         let language = match Path::new(name).extension().and_then(|it| it.to_str()) {
             Some("ladder") => "gradus-ladder",
             Some("grafcet") => "grafcet",
@@ -113,39 +121,41 @@ impl Client {
             Some("txt") => "plaintext",
             _ => "xml",
         };
-        let marked = Marked::of(text);
         self.notify::<notification::DidOpenTextDocument>(DidOpenTextDocumentParams {
             text_document: TextDocumentItem {
                 uri: self.uri(name),
                 language_id: language.into(),
                 version: 1,
-                text: marked.text.clone(),
+                text: text.to_owned(),
             },
         });
-        self.open.insert(name.to_owned(), (1, marked.text.clone()));
-        marked
+        self.open.insert(name.to_owned(), (1, text.to_owned()));
     }
 
     /// Opens a file of the repository, copied into the client's folder.
     pub fn open_fixture(&mut self, path: &str, name: &str) -> String {
         let text = fs::read_to_string(crate::path(path)).expect("a fixture");
-        // No fixture has a `$` with a digit behind it.
-        self.open(name, &text);
+        self.open_plain(name, &text);
         text
     }
 
     /// Replaces the first occurrence of `old` in an open document by `new`.
     pub fn replace(&mut self, name: &str, old: &str, new: &str) {
+        let at = self.text(name).find(old).expect("the old text");
+        self.edit(name, at..at + old.len(), new);
+    }
+
+    /// Replaces some bytes of an open document by `new`.
+    pub fn edit(&mut self, name: &str, bytes: Range<usize>, new: &str) {
         let (version, text) = self.open.get_mut(name).expect("an open document");
-        let at = text.find(old).expect("the old text");
         let marked = Marked {
             text: text.clone(),
-            cursors: vec![at, at + old.len()],
+            cursors: vec![bytes.start, bytes.end],
         };
-        let bytes = self.profile.counts_bytes();
-        let range =
-            tower_lsp::ls_types::Range::new(marked.position(0, bytes), marked.position(1, bytes));
-        text.replace_range(at..at + old.len(), new);
+        let counts_bytes = self.profile.counts_bytes();
+        let [start, end] = [0, 1].map(|cursor| marked.position(cursor, counts_bytes));
+        let range = tower_lsp::ls_types::Range::new(start, end);
+        text.replace_range(bytes, new);
         *version += 1;
         let version = *version;
         let change = TextDocumentContentChangeEvent {

@@ -1,11 +1,12 @@
 use std::io::{BufRead, BufReader, Write};
-use std::process::{Child, ChildStdin, Command, ExitStatus, Stdio};
-use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
+use std::process::{Child, ChildStderr, ChildStdin, Command, ExitStatus, Stdio};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, sync_channel};
 use std::time::{Duration, Instant};
 
 use serde_json::Value;
 
-/// A language server and its streams: messages go in and out as they are.
+/// A language server and its streams: messages go in and out as they are. What
+/// nobody receives stays in the pipe, as with a client that does not read.
 #[derive(Debug)]
 pub struct Wire {
     server: Child,
@@ -21,15 +22,19 @@ const PATIENCE: Duration = Duration::from_secs(120);
 impl Wire {
     /// Starts the server that `executable` is.
     pub fn start(executable: &str) -> Self {
-        let mut server = Command::new(executable)
-            .arg("lsp")
+        Self::run(Command::new(executable).arg("lsp").stderr(Stdio::null()))
+    }
+
+    /// Starts the server that `command` runs.
+    pub fn run(command: &mut Command) -> Self {
+        let mut server = command
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
-            .stderr(Stdio::null())
             .spawn()
             .expect("the server starts");
         let output = server.stdout.take().expect("its standard output");
-        let (sender, messages) = channel();
+        // Nothing is read before somebody wants it.
+        let (sender, messages) = sync_channel(0);
         std::thread::spawn(move || {
             let mut output = BufReader::new(output);
             while let Some(message) = message(&mut output) {
@@ -43,6 +48,12 @@ impl Wire {
             server,
             messages,
         }
+    }
+
+    /// What the server writes on standard error, if the command that started it
+    /// says so.
+    pub fn errors(&mut self) -> ChildStderr {
+        self.server.stderr.take().expect("its standard error")
     }
 
     /// The server's number among processes.

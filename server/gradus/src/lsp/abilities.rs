@@ -1,7 +1,7 @@
 //! What the client can do, as far as the server behaves differently for it.
 
 use tower_lsp::ls_types::{
-    ClientCapabilities, InitializeParams, MarkupKind, ResourceOperationKind,
+    ClientCapabilities, DiagnosticTag, InitializeParams, MarkupKind, ResourceOperationKind,
 };
 
 use super::position::Encoding;
@@ -13,6 +13,12 @@ pub struct Abilities {
     pub encoding: Encoding,
     /// It shows Markdown in hovers.
     pub markdown: bool,
+    /// It shows other places that belong to a finding.
+    pub related_places: bool,
+    /// It shows that what a finding is about could go.
+    pub unnecessary: bool,
+    /// It shows the page of a finding's code.
+    pub code_pages: bool,
     /// It asks for findings itself.
     pub pulls_diagnostics: bool,
     /// It asks for settings to be told.
@@ -80,12 +86,18 @@ impl Abilities {
         };
         let completion_item =
             document.and_then(|it| it.completion.as_ref()?.completion_item.as_ref());
+        let findings = document.and_then(|it| it.publish_diagnostics.as_ref());
         let pulls = document.is_some_and(|it| it.diagnostic.is_some());
         Self {
             encoding: Encoding::choose(general.and_then(|it| it.position_encodings.as_deref())),
             markdown: document
                 .and_then(|it| it.hover.as_ref()?.content_format.as_ref())
                 .is_some_and(|kinds| kinds.contains(&MarkupKind::Markdown)),
+            related_places: findings.is_some_and(|it| it.related_information == Some(true)),
+            unnecessary: findings
+                .and_then(|it| it.tag_support.as_ref())
+                .is_some_and(|it| it.value_set.contains(&DiagnosticTag::UNNECESSARY)),
+            code_pages: findings.is_some_and(|it| it.code_description_support == Some(true)),
             pulls_diagnostics: pulls && refreshes_diagnostics,
             refreshes_diagnostics,
             configuration: workspace.is_some_and(|it| it.configuration == Some(true)),

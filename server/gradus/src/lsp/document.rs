@@ -80,19 +80,26 @@ impl Document {
         changes: Vec<TextDocumentContentChangeEvent>,
         encoding: Encoding,
     ) -> Self {
-        self.outdate();
-        let mut rope = self.rope.clone();
+        let mut after = self.renewed();
+        after.version = Some(version);
         for change in changes {
             match change.range {
-                Some(range) => replace(&mut rope, range, &change.text, encoding),
-                None => rope = Rope::from_str(&change.text),
+                Some(range) => replace(&mut after.rope, range, &change.text, encoding),
+                None => after.rope = Rope::from_str(&change.text),
             }
         }
+        after
+    }
+
+    /// The same document, of which nothing is worked out yet. This one is
+    /// outdated from now on, so that all work on it ends.
+    pub fn renewed(&self) -> Self {
+        self.outdate();
         Self {
             uri: self.uri.clone(),
             key: self.key.clone(),
-            version: Some(version),
-            rope,
+            version: self.version,
+            rope: self.rope.clone(),
             language_id: self.language_id.clone(),
             contents: OnceLock::new(),
             findings: OnceLock::new(),
@@ -138,17 +145,18 @@ impl Document {
 
     /// Everything there is to say about it. What a spec has to hear depends on
     /// its ladder; what a ladder has to hear, on nothing else.
-    pub fn findings(&self, world: &World) -> Vec<Diagnostic> {
-        let budget = self.budget();
+    pub fn findings(&self, world: &World, budget: &Budget) -> Vec<Diagnostic> {
         match self.contents() {
             Contents::Ladder(ladder) => {
-                let found = self.findings.get_or_init(|| ladder.findings(&budget));
+                // Kept for all who ask, so nobody's cancel may cut them short.
+                let own = self.budget();
+                let found = self.findings.get_or_init(|| ladder.findings(&own));
                 found.clone()
             }
             Contents::Spec(spec) => {
                 let beside = world.ladder_of(self);
                 let ladder = beside.as_ref().and_then(|it| it.ladder());
-                spec.findings(ladder.map(|it| &**it), &budget)
+                spec.findings(ladder.map(|it| &**it), budget)
             }
             Contents::Foreign => Vec::new(),
         }
@@ -222,6 +230,10 @@ fn replace(rope: &mut Rope, range: Range, text: &str, encoding: Encoding) {
 mod tests {
     use std::str::FromStr;
 
+    use proptest::collection::vec;
+    use proptest::prelude::*;
+    use proptest::sample::Index;
+
     use super::*;
 
     fn open(text: &str) -> Document {
@@ -256,5 +268,64 @@ mod tests {
         };
         let after = open("x").edited(2, vec![whole], Encoding::Utf8);
         assert_eq!(after.rope.to_string(), "rung: a -> b");
+    }
+
+    /// Characters of one to four bytes, and all that could be taken for an end
+    /// of a line.
+    const TEXT: &str = "[a\u{e4}\u{20ac}\u{1f6d1}\u{feff}\r\n\u{b}\u{85}\u{2028}]{0,12}";
+
+    /// The places of `text` where a caret can stand, in both encodings.
+    fn carets(text: &str) -> Vec<(usize, Position, Position)> {
+        let mut all = Vec::new();
+        let (mut line, mut utf8, mut utf16) = (0, 0, 0);
+        let mut rest = text.char_indices().peekable();
+        while let Some((at, character)) = rest.next() {
+            all.push((at, Position::new(line, utf8), Position::new(line, utf16)));
+            if character == '\r' && rest.peek().is_some_and(|(_, next)| *next == '\n') {
+                rest.next();
+            }
+            if matches!(character, '\r' | '\n') {
+                (line, utf8, utf16) = (line + 1, 0, 0);
+            } else {
+                utf8 += character.len_utf8() as u32;
+                utf16 += character.len_utf16() as u32;
+            }
+        }
+        all.push((
+            text.len(),
+            Position::new(line, utf8),
+            Position::new(line, utf16),
+        ));
+        all
+    }
+
+    proptest! {
+        #[test]
+        fn any_edits_leave_what_they_leave_in_a_plain_text(
+            before in TEXT,
+            edits in vec((any::<Index>(), any::<Index>(), TEXT), 0..9),
+        ) {
+            for encoding in [Encoding::Utf8, Encoding::Utf16] {
+                let mut text = before.clone();
+                let mut document = open(&text);
+                for (from, length, new) in &edits {
+                    let carets = carets(&text);
+                    let from = from.index(carets.len());
+                    let to = from + length.index(carets.len() - from);
+                    let place = |at: usize| match encoding {
+                        Encoding::Utf8 => carets[at].1,
+                        Encoding::Utf16 => carets[at].2,
+                    };
+                    let edit = TextDocumentContentChangeEvent {
+                        range: Some(Range::new(place(from), place(to))),
+                        range_length: None,
+                        text: new.clone(),
+                    };
+                    document = document.edited(2, vec![edit], encoding);
+                    text.replace_range(carets[from].0..carets[to].0, new);
+                    prop_assert_eq!(document.rope.to_string(), text.as_str());
+                }
+            }
+        }
     }
 }

@@ -177,7 +177,7 @@ mod tests {
         let uri = |name: &str| Uri::from_str(&format!("file:///p/{name}")).expect("an address");
         let text = "a\n\u{1f6d1}b\n";
         let open = Document::new(uri("a.ladder"), "gradus-ladder", Some(7), text);
-        let mut changes = Changes::new("Accept a -> b").description("handover");
+        let mut changes = Changes::new("Accept a -> b");
         let edit = Edit {
             span: Span::new(6, 7),
             text: "c".to_owned(),
@@ -254,7 +254,7 @@ mod tests {
                 },
             ],
             "changeAnnotations": {
-                "gradus": { "label": "Accept a -> b", "description": "handover" },
+                "gradus": { "label": "Accept a -> b" },
             },
         });
         assert_eq!(sent(abilities), expected);

@@ -11,6 +11,8 @@ use futures_util::future::BoxFuture;
 use tower::Service;
 use tower_lsp::jsonrpc::{Error, Request, Response};
 
+use super::fault;
+
 /// A service whose panics are answers.
 #[derive(Debug)]
 pub struct Guard<S>(pub S);
@@ -31,9 +33,18 @@ where
     fn call(&mut self, request: Request) -> Self::Future {
         let id = request.id().cloned();
         let method = request.method().to_owned();
-        let handler = AssertUnwindSafe(self.0.call(request)).catch_unwind();
+        let handler = self.0.call(request);
         Box::pin(async move {
-            match handler.await {
+            let guarded = async {
+                fault::forced(&method);
+                handler.await
+            };
+            match AssertUnwindSafe(guarded).catch_unwind().await {
+                // The library passes over what begins with `$/`, requests too.
+                Ok(Ok(None)) if method.starts_with("$/") => {
+                    let error = Error::method_not_found();
+                    Ok(id.map(|id| Response::from_error(id, error)))
+                }
                 Ok(answer) => answer,
                 Err(panic) => {
                     let error = internal(&format!("{method}: {}", reason(&*panic)));

@@ -23,17 +23,20 @@ mod config;
 mod disk;
 mod document;
 mod edit;
+mod fault;
 mod guard;
 mod index;
 mod key;
 mod log;
 mod parent;
 mod position;
+mod progress;
 mod publish;
 mod query;
 mod requests;
 mod server;
 mod status;
+mod teller;
 mod telling;
 mod transport;
 mod virtual_document;
@@ -44,11 +47,17 @@ use std::time::Duration;
 use tower_lsp::LspService;
 
 use guard::Guard;
+use log::Log;
 use server::Server;
 use transport::{Input, Output};
 
-/// Threads that answer requests. Some wait for the analysis that another does.
-const THREADS: usize = 32;
+/// Threads that answer requests. Most of them only wait for the analysis that
+/// another does: an editor asks for ten things at once of each document that it
+/// shows, and one large document must not keep all threads waiting.
+const THREADS: usize = 256;
+
+/// How long answers are worked out for a client that has closed its stream.
+const GRACE: Duration = Duration::from_secs(2);
 
 /// Serves one client on the standard streams until it says `exit` or is gone.
 /// Ends the process: with 0 if the client asked for a shutdown before, else
@@ -61,15 +70,25 @@ pub fn serve() -> std::io::Result<std::convert::Infallible> {
         .enable_time()
         .build()?;
     let output = Output::start();
-    let input = Input::start(output.clone());
+    let (input, ended) = Input::start(output.clone());
+    let log = Log::start();
+    let told = log.clone();
+    std::panic::set_hook(Box::new(move |panic| told.line(panic.to_string())));
     let end = server::End::default();
     runtime.block_on(async {
-        let (service, socket) = Server::service(end.clone());
+        let (service, socket) = Server::service(end.clone(), log, output.clone());
         let server = tower_lsp::Server::new(input, output.clone(), socket);
-        server
+        let serving = server
             .concurrency_level(usize::MAX)
-            .serve(Guard::<LspService<Server>>(service))
-            .await;
+            .serve(Guard::<LspService<Server>>(service));
+        tokio::select! {
+            () = serving => {}
+            () = async {
+                // It is never sent, so this is the end of the stream.
+                let _ = ended.await;
+                tokio::time::sleep(GRACE).await;
+            } => {}
+        }
     });
     output.finish();
     // A thread may still wait for standard input; only this ends it.

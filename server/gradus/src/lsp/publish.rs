@@ -3,6 +3,7 @@
 use std::collections::HashSet;
 use std::sync::Arc;
 
+use logic::Budget;
 use source::{Code, Severity, codes};
 use tower_lsp::ls_types::{
     CodeDescription, Diagnostic, DiagnosticRelatedInformation, DiagnosticSeverity, DiagnosticTag,
@@ -10,11 +11,13 @@ use tower_lsp::ls_types::{
 };
 
 use super::document::Document;
+use super::fault;
 use super::virtual_document;
 use super::world::World;
 
 /// Everything there is to say about a document, as the client shows it.
-pub fn diagnostics(world: &World, document: &Arc<Document>) -> Vec<Diagnostic> {
+pub fn diagnostics(world: &World, document: &Arc<Document>, budget: &Budget) -> Vec<Diagnostic> {
+    fault::forced(fault::DIAGNOSTICS);
     if !world.config.diagnostics.enable {
         return Vec::new();
     }
@@ -25,7 +28,7 @@ pub fn diagnostics(world: &World, document: &Arc<Document>) -> Vec<Diagnostic> {
         .iter()
         .filter_map(|code| Code::parse(code))
         .collect();
-    let found = document.findings(world);
+    let found = document.findings(world, budget);
     found
         .iter()
         .filter(|finding| !ignored.contains(&finding.code))
@@ -33,9 +36,10 @@ pub fn diagnostics(world: &World, document: &Arc<Document>) -> Vec<Diagnostic> {
         .collect()
 }
 
-/// A finding in the protocol's types.
+/// A finding in the protocol's types. To a client that does not show other
+/// places, the message tells of them.
 pub fn diagnostic(world: &World, document: &Document, finding: &source::Diagnostic) -> Diagnostic {
-    let encoding = world.encoding();
+    let (encoding, abilities) = (world.encoding(), &world.abilities);
     let related = finding
         .related
         .iter()
@@ -44,10 +48,15 @@ pub fn diagnostic(world: &World, document: &Document, finding: &source::Diagnost
             message: related.message.clone(),
         });
     let related: Vec<_> = related.collect();
-    let message = match &finding.help {
-        Some(help) => format!("{}\n{help}", finding.message),
-        None => finding.message.clone(),
-    };
+    let mut message = finding.message.clone();
+    if !abilities.related_places {
+        message.extend(related.iter().map(line));
+    }
+    if let Some(help) = &finding.help {
+        message += &format!("\n{help}");
+    }
+    let shows_places = abilities.related_places && !related.is_empty();
+    let could_go = abilities.unnecessary && finding.code == codes::UNREACHABLE_RUNG;
     Diagnostic {
         range: encoding.range(&document.rope, finding.span),
         severity: Some(severity(finding.severity)),
@@ -55,16 +64,22 @@ pub fn diagnostic(world: &World, document: &Document, finding: &source::Diagnost
         code_description: page(world, finding.code).map(|href| CodeDescription { href }),
         source: Some("gradus".to_owned()),
         message,
-        related_information: (!related.is_empty()).then_some(related),
-        tags: (finding.code == codes::UNREACHABLE_RUNG).then(|| vec![DiagnosticTag::UNNECESSARY]),
+        related_information: shows_places.then_some(related),
+        tags: could_go.then(|| vec![DiagnosticTag::UNNECESSARY]),
         data: None,
     }
+}
+
+/// Another place that belongs to a finding, as a line of its message.
+fn line(related: &DiagnosticRelatedInformation) -> String {
+    let line = related.location.range.start.line + 1;
+    format!("\nline {line}: {}", related.message)
 }
 
 /// The address of the page that explains a code, for clients that show
 /// documents which the server makes.
 fn page(world: &World, code: Code) -> Option<Uri> {
-    let shown = world.abilities.virtual_documents;
+    let shown = world.abilities.code_pages && world.abilities.virtual_documents;
     shown.then(|| virtual_document::page(code))?
 }
 

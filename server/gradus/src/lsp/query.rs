@@ -3,10 +3,12 @@
 use std::sync::Arc;
 
 use logic::{Budget, Cancel};
+use tokio::task::AbortHandle;
 use tower_lsp::jsonrpc::{Error, Result};
 use tower_lsp::ls_types::{Location, Position, Range, Uri};
 
 use super::document::Document;
+use super::fault;
 use super::guard::{internal, reason};
 use super::position::Encoding;
 use super::world::World;
@@ -123,13 +125,15 @@ impl Pair {
     }
 }
 
-/// Cancels when it is dropped, as the future of a cancelled request is.
-#[derive(Debug, Default)]
-struct CancelOnDrop(Cancel);
+/// Cancels when it is dropped, as the future of a cancelled request is: work
+/// under way by its flag, and work that has not begun for good.
+#[derive(Debug)]
+struct CancelOnDrop(Cancel, AbortHandle);
 
 impl Drop for CancelOnDrop {
     fn drop(&mut self) {
         self.0.cancel();
+        self.1.abort();
     }
 }
 
@@ -171,10 +175,14 @@ where
     T: Send + 'static,
     F: FnOnce(Cancel) -> T + Send + 'static,
 {
-    let guard = CancelOnDrop::default();
-    let cancel = guard.0.clone();
-    let done = tokio::task::spawn_blocking(move || work(cancel)).await;
-    done.map_err(|error| match error.try_into_panic() {
+    let cancel = Cancel::default();
+    let flag = cancel.clone();
+    let job = tokio::task::spawn_blocking(move || {
+        fault::forced(fault::WORK);
+        work(flag)
+    });
+    let _guard = CancelOnDrop(cancel, job.abort_handle());
+    job.await.map_err(|error| match error.try_into_panic() {
         Ok(panic) => internal(reason(&*panic)),
         Err(_) => Error::request_cancelled(),
     })

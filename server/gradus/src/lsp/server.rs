@@ -17,8 +17,11 @@ use super::config::Config;
 use super::document::Document;
 use super::key::FileKey;
 use super::log::Log;
+use super::progress::{self, Shown};
 use super::query::{self, Query, about};
 use super::requests::command::Command;
+use super::teller::Tellers;
+use super::transport::Output;
 use super::world::State;
 use super::{parent, publish, requests, telling};
 
@@ -50,22 +53,45 @@ pub struct Shared {
     pub state: State,
     /// What was done.
     pub log: Log,
+    /// What is said to the client.
+    pub output: Output,
+    /// Who tells findings.
+    pub tellers: Tellers,
+    /// What the client shows of work that takes long.
+    pub progress: Shown,
 }
 
 impl Server {
     /// The server as a service, and the socket to its client.
-    pub fn service(end: End) -> (LspService<Self>, ClientSocket) {
+    pub fn service(end: End, log: Log, output: Output) -> (LspService<Self>, ClientSocket) {
         LspService::build(|client| Self {
             shared: Arc::new(Shared {
                 client,
                 state: State::default(),
-                log: Log::default(),
+                log,
+                output,
+                tellers: Tellers::default(),
+                progress: Shown::default(),
             }),
             end,
         })
         .custom_method("workspace/textDocumentContent", Self::virtual_document)
         .custom_method("textDocument/inlineCompletion", Self::inline_completion)
+        .custom_method("window/workDoneProgress/cancel", Self::stop)
         .finish()
+    }
+
+    /// Gives up the work that a progress is about. Whoever asks for what it was
+    /// to find out begins it anew.
+    async fn stop(&self, params: WorkDoneProgressCancelParams) {
+        if let Some(key) = self.shared.progress.document(&params.token) {
+            self.shared.state.change(|world| {
+                if let Some(document) = world.open.get_mut(&key) {
+                    *document = Arc::new(document.renewed());
+                }
+            });
+            self.shared.tellers.stop(&key);
+        }
     }
 
     async fn virtual_document(
@@ -223,15 +249,20 @@ impl LanguageServer for Server {
     }
 
     async fn did_change_watched_files(&self, params: DidChangeWatchedFilesParams) {
+        let mut matters = false;
         for change in params.changes {
             let key = FileKey::of(&change.uri);
             let partners = self.shared.state.change(|world| {
                 world.disk.forget(&key);
                 world.open_partners(&key)
             });
+            matters |= !partners.is_empty();
             for partner in partners {
                 telling::changed(&self.shared, &partner.key);
             }
+        }
+        if matters {
+            telling::refresh(&self.shared);
         }
     }
 
@@ -240,8 +271,11 @@ impl LanguageServer for Server {
         params: DocumentDiagnosticParams,
     ) -> Result<DocumentDiagnosticReportResult> {
         let world = self.shared.state.world();
+        let open = world.open.get(&FileKey::of(&params.text_document.uri));
+        let _under_way = open.map(|document| progress::under_way(&self.shared, document));
         let found = about(world, params.text_document.uri, |query| {
-            Some(publish::diagnostics(&query.world, &query.document))
+            let (world, document) = (&query.world, &query.document);
+            Some(publish::diagnostics(world, document, &query.budget))
         });
         let report = FullDocumentDiagnosticReport {
             result_id: None,

@@ -73,7 +73,7 @@ pub fn of(world: World, document: Arc<Document>) -> Option<Status> {
             let rules = pair
                 .spec()
                 .map_or(0, |it| it.reading.spec.grafcet.transitions().count());
-            let found = spec.findings(&world).into_iter();
+            let found = spec.findings(&world, &spec.budget()).into_iter();
             let stale = found.filter(|it| {
                 [
                     codes::RULE_NOT_SUPPORTED,

@@ -6,6 +6,7 @@
 use std::sync::Arc;
 use std::time::Duration;
 
+use logic::{Budget, Cancel};
 use serde_json::json;
 use tower_lsp::jsonrpc;
 use tower_lsp::ls_types::{
@@ -16,6 +17,7 @@ use tower_lsp::ls_types::{
 use super::config::Config;
 use super::document::Document;
 use super::key::FileKey;
+use super::progress;
 use super::publish;
 use super::query::elsewhere;
 use super::requests::command::Done;
@@ -161,6 +163,7 @@ fn status(shared: &Arc<Shared>, key: &FileKey) {
 pub fn closed(shared: &Arc<Shared>, document: &Document) {
     let (shared, uri) = (Arc::clone(shared), document.uri.clone());
     let key = document.key.clone();
+    shared.tellers.stop(&key);
     tokio::spawn(async move {
         let world = shared.state.world();
         if !world.abilities.pulls_diagnostics && !world.open.contains_key(&key) {
@@ -177,28 +180,50 @@ pub fn closed(shared: &Arc<Shared>, document: &Document) {
 
 /// Tells the findings of an open document, unless the client asks for them.
 fn findings(shared: &Arc<Shared>, key: &FileKey) {
-    let world = shared.state.world();
-    if world.abilities.pulls_diagnostics {
+    let pulls = shared.state.world().abilities.pulls_diagnostics;
+    if pulls || !shared.tellers.is_needed(key) {
         return;
     }
-    let Some(document) = world.open.get(key).cloned() else {
-        return;
-    };
-    let shared = Arc::clone(shared);
+    let (shared, key) = (Arc::clone(shared), key.clone());
     tokio::spawn(async move {
-        let (uri, version) = (document.uri.clone(), document.version);
-        let current = Arc::clone(&document);
-        let found = elsewhere(move |_| publish::diagnostics(&world, &current)).await;
-        match found {
-            Ok(_) if document.is_outdated() => {}
-            Ok(found) => shared.client.publish_diagnostics(uri, found, version).await,
-            Err(error) => shared.log.line(error.message.into_owned()),
+        loop {
+            shared.output.room().await;
+            let in_vain = shared.tellers.round(&key);
+            tell(&shared, &key, in_vain).await;
+            if shared.tellers.is_done(&key) {
+                break;
+            }
         }
     });
 }
 
-/// Asks the client to ask again for what depends on settings.
-fn refresh(shared: &Arc<Shared>) {
+/// Tells the findings of an open document as it is now, unless it is in vain.
+async fn tell(shared: &Arc<Shared>, key: &FileKey, in_vain: Cancel) {
+    let world = shared.state.world();
+    let Some(document) = world.open.get(key).cloned() else {
+        return;
+    };
+    let (uri, version) = (document.uri.clone(), document.version);
+    let current = Arc::clone(&document);
+    // Of a ladder that changes meanwhile only a part may have been read.
+    let mut used = world.open_partners(key);
+    used.push(Arc::clone(&document));
+    let budget = Budget {
+        cancel: in_vain.clone(),
+        ..Budget::default()
+    };
+    let under_way = progress::under_way(shared, &document);
+    let found = elsewhere(move |_| publish::diagnostics(&world, &current, &budget)).await;
+    drop(under_way);
+    match found {
+        Ok(_) if in_vain.is_cancelled() || used.iter().any(|it| it.is_outdated()) => {}
+        Ok(found) => shared.client.publish_diagnostics(uri, found, version).await,
+        Err(error) => shared.log.line(error.message.into_owned()),
+    }
+}
+
+/// Asks the client to ask again for what depends on settings and on files.
+pub fn refresh(shared: &Arc<Shared>) {
     let shared = Arc::clone(shared);
     tokio::spawn(async move {
         let abilities = shared.state.world().abilities;

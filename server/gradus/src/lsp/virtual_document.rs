@@ -17,6 +17,7 @@ use percent_encoding::{NON_ALPHANUMERIC, percent_decode_str, utf8_percent_encode
 use source::Code;
 use tower_lsp::ls_types::Uri;
 
+use super::document::Document;
 use super::world::World;
 use crate::command::conditions;
 use ide::Ladder;
@@ -98,12 +99,17 @@ pub fn text(world: &World, uri: &Uri, budget: &Budget) -> Option<String> {
     }
     let mut views = [View::Ladder, View::Conditions].into_iter();
     let view = views.find(|view| view.scheme() == scheme)?;
+    let document = made_from(world, uri)?;
+    let ladder: &Arc<Ladder> = document.ladder()?;
+    Some(view.text(ladder, budget))
+}
+
+/// The document that the virtual one at `uri` is made from.
+pub fn made_from(world: &World, uri: &Uri) -> Option<Arc<Document>> {
     let of = percent_decode_str(uri.query()?.as_str())
         .decode_utf8()
         .ok()?;
-    let document = world.document(&Uri::from_str(&of).ok()?)?;
-    let ladder: &Arc<Ladder> = document.ladder()?;
-    Some(view.text(ladder, budget))
+    world.document(&Uri::from_str(&of).ok()?)
 }
 
 #[cfg(test)]

@@ -63,7 +63,7 @@ pub fn answer(
     context: &CodeActionContext,
 ) -> Option<Vec<CodeActionOrCommand>> {
     let span = query.encoding().span(&query.document.rope, range);
-    let findings = query.document.findings(&query.world);
+    let findings = query.document.findings(&query.world, &query.budget);
     let here = findings
         .into_iter()
         .filter(|finding| finding.span.start <= span.end && span.start <= finding.span.end);

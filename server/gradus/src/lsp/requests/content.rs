@@ -26,7 +26,13 @@ pub fn answer(world: &World, params: &Params, cancel: Cancel) -> Result<Content>
         cancel,
         ..Budget::default()
     };
-    match virtual_document::text(world, &params.uri, &budget) {
+    let made_from = virtual_document::made_from(world, &params.uri);
+    let text = virtual_document::text(world, &params.uri, &budget);
+    // What is read while it changes is not read to its end.
+    if made_from.is_some_and(|document| document.is_outdated()) {
+        return Err(Error::content_modified());
+    }
+    match text {
         Some(text) => Ok(Content { text }),
         None => Err(Error::invalid_params(format!(
             "gradus makes no document {}",

@@ -3,10 +3,10 @@
 use std::io::{BufRead, ErrorKind, Read};
 
 use serde::Deserialize;
-use serde::de::IgnoredAny;
 use serde_json::{Value, json};
+use tower_lsp::jsonrpc::{Request, Response};
 
-/// A body of more bytes than this is read past, not kept: the largest export
+/// A header that speaks of more bytes than this is wrong: the largest export
 /// ever met has 60 MB.
 const LARGEST: usize = 512 << 20;
 
@@ -16,7 +16,7 @@ const LONGEST_HEADER: u64 = 4096;
 /// What stands next on a stream.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) enum Frame {
-    /// One message, well formed as far as its envelope goes.
+    /// One message, which the protocol library can read.
     Message(Vec<u8>),
     /// Something else, and the answer to it.
     Refused(Value),
@@ -28,17 +28,14 @@ pub(super) enum Frame {
 /// over up to the next header; the first of them are answered.
 pub(super) fn next(stream: &mut impl BufRead) -> Frame {
     let length = match header(stream) {
+        // Waiting for so many bytes would swallow all that follows.
+        Header::Length(length) if length > LARGEST => {
+            return refusal(INVALID_REQUEST, "a message of more than 512 MiB");
+        }
         Header::Length(length) => length,
         Header::Broken => return refusal(PARSE_ERROR, "a header without a Content-Length"),
         Header::End => return Frame::End,
     };
-    if length > LARGEST {
-        let mut rest = stream.by_ref().take(length as u64);
-        return match std::io::copy(&mut rest, &mut std::io::sink()) {
-            Ok(_) => refusal(INVALID_REQUEST, "a message of more than 512 MiB"),
-            Err(_) => Frame::End,
-        };
-    }
     let mut body = Vec::new();
     match stream.by_ref().take(length as u64).read_to_end(&mut body) {
         Ok(read) if read == length => judged(body),
@@ -49,48 +46,54 @@ pub(super) fn next(stream: &mut impl BufRead) -> Frame {
 const PARSE_ERROR: i32 = -32700;
 const INVALID_REQUEST: i32 = -32600;
 
-/// What every message has, and what a request and a response have apart.
+/// What the protocol library takes for a message, read in the same way. It
+/// stops for good at anything else.
 #[derive(Deserialize)]
-struct Envelope {
-    jsonrpc: String,
-    id: Option<Value>,
-    method: Option<String>,
-    params: Option<Value>,
-    result: Option<IgnoredAny>,
-    error: Option<IgnoredAny>,
+#[serde(untagged)]
+enum Message {
+    #[expect(dead_code, reason = "only whether there is one matters")]
+    Response(Response),
+    Request(Request),
 }
 
 /// `body`, if it is one message.
 fn judged(body: Vec<u8>) -> Frame {
-    let value: Result<Envelope, _> = serde_json::from_slice(&body);
-    let envelope = match value {
-        Ok(envelope) => envelope,
-        Err(error) if error.is_data() => {
-            let what = match body.iter().find(|byte| !byte.is_ascii_whitespace()) {
-                Some(b'[') => "messages in batches are no part of the protocol",
-                _ => "this is no message of JSON-RPC 2.0",
-            };
-            return refusal(INVALID_REQUEST, what);
-        }
-        Err(_) => return refusal(PARSE_ERROR, "a message that is not JSON"),
+    let Ok(text) = std::str::from_utf8(&body) else {
+        return refusal(PARSE_ERROR, "a message that is not UTF-8");
     };
-    let id_is_one = match &envelope.id {
-        None | Some(Value::Null | Value::String(_)) => true,
-        Some(Value::Number(number)) => number.is_i64(),
-        Some(_) => false,
-    };
-    let params_are_some = !matches!(
-        envelope.params,
+    match serde_json::from_str(text) {
+        Ok(Message::Response(_)) => Frame::Message(body),
+        Ok(Message::Request(request)) if is_sound(&request) => Frame::Message(body),
+        _ => refused(text),
+    }
+}
+
+/// Whether a request names a method, and has params of a shape that params may
+/// have.
+fn is_sound(request: &Request) -> bool {
+    let scalar = matches!(
+        request.params(),
         Some(Value::Bool(_) | Value::Number(_) | Value::String(_))
     );
-    let is_response =
-        envelope.result.is_some() || envelope.error.is_some() || envelope.id.is_some();
-    let is_known = envelope.method.is_some() || is_response;
-    if envelope.jsonrpc != "2.0" || !id_is_one || !params_are_some || !is_known {
-        let id = envelope.id.filter(|_| id_is_one);
-        return answer(id, INVALID_REQUEST, "this is no message of JSON-RPC 2.0");
+    !request.method().is_empty() && !scalar
+}
+
+/// The answer to `text`, which is no message.
+fn refused(text: &str) -> Frame {
+    let found: Value = match serde_json::from_str(text) {
+        Ok(found) => found,
+        Err(_) => return refusal(PARSE_ERROR, "a message that is not JSON"),
+    };
+    if found.is_array() {
+        let what = "messages in batches are no part of the protocol";
+        return refusal(INVALID_REQUEST, what);
     }
-    Frame::Message(body)
+    // Who asks something can be told which question it was. An answer with a
+    // fault has the number of a question of the server's.
+    let asks = found["method"].is_string();
+    let id = found.get("id").filter(|id| id.is_i64() || id.is_string());
+    let id = id.filter(|_| asks).cloned();
+    answer(id, INVALID_REQUEST, "this is no message of JSON-RPC 2.0")
 }
 
 fn refusal(code: i32, message: &str) -> Frame {
@@ -116,7 +119,7 @@ enum Header {
 /// line, so a header may also end one.
 fn header(stream: &mut impl BufRead) -> Header {
     let mut length = None;
-    let mut is_broken = false;
+    let mut has_lines = false;
     loop {
         let mut line = Vec::new();
         let mut limited = stream.by_ref().take(LONGEST_HEADER);
@@ -130,12 +133,12 @@ fn header(stream: &mut impl BufRead) -> Header {
         let line = line.trim_end();
         match (line.is_empty(), length) {
             (true, Some(length)) => return Header::Length(length),
-            (true, None) if is_broken => return Header::Broken,
+            (true, None) if has_lines => return Header::Broken,
             (true, None) => {}
-            (false, _) => match content_length(line) {
-                Some(found) => length = Some(found),
-                None => is_broken |= !line.contains(':') || line.contains("Content-Length"),
-            },
+            (false, _) => {
+                has_lines = true;
+                length = content_length(line).or(length);
+            }
         }
     }
 }
@@ -196,6 +199,10 @@ mod tests {
                 r#"{"jsonrpc":"2.0","id":1,"method":"m","params":3}"#,
                 "-32600",
             ),
+            (r#"{"jsonrpc":"2.0","id":1,"error":{}}"#, "-32600"),
+            (r#"{"jsonrpc":"2.0","id":1}"#, "-32600"),
+            (r#"{"jsonrpc":"2.0","method":"m","method":"n"}"#, "-32600"),
+            (r#"{"jsonrpc":"2.0","method":"m","x":1e999}"#, "-32700"),
         ];
         for (body, code) in bad {
             let stream = framed(body) + &framed(EXIT);
@@ -204,9 +211,25 @@ mod tests {
     }
 
     #[test]
+    fn what_nests_too_deeply_is_refused_wherever_it_stands() {
+        let deep = "[".repeat(500) + &"]".repeat(500);
+        for place in ["params", "result", "x"] {
+            let body = format!(r#"{{"jsonrpc":"2.0","id":1,"method":"m","{place}":{deep}}}"#);
+            let stream = framed(&body) + &framed(EXIT);
+            assert_eq!(frames(&stream), ["-32700", EXIT], "{place}");
+        }
+    }
+
+    #[test]
     fn a_broken_header_costs_its_own_frame() {
         let stream = format!("Content-Length: many\r\n\r\n{}", framed(EXIT));
         assert_eq!(frames(&stream), ["-32700", EXIT]);
+        let typed = format!("Content-Type: x\r\n\r\n{EXIT}\r\n{}", framed(EXIT));
+        assert_eq!(frames(&typed), ["-32700", EXIT]);
+        for much in ["99999999999", "99999999999999999999999", "-1"] {
+            let huge = format!("Content-Length: {much}\r\n\r\n{EXIT}{}", framed(EXIT));
+            assert_eq!(frames(&huge).last().map(String::as_str), Some(EXIT));
+        }
         // The length was one too small: the last brace begins the next header.
         let short = format!("Content-Length: {}\r\n\r\n{EXIT}", EXIT.len() - 1);
         assert_eq!(frames(&(short + &framed(EXIT))), ["-32700", EXIT]);

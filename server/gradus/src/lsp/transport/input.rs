@@ -4,6 +4,7 @@ use std::task::{Context, Poll, ready};
 
 use tokio::io::{AsyncRead, ReadBuf};
 use tokio::sync::mpsc::{UnboundedReceiver, unbounded_channel};
+use tokio::sync::oneshot;
 
 use super::Output;
 use super::frame::{self, Frame};
@@ -18,10 +19,13 @@ pub struct Input {
 }
 
 impl Input {
-    /// Starts the pump. What is no message is answered on `output`.
-    pub fn start(output: Output) -> Self {
+    /// Starts the pump. What is no message is answered on `output`. Whoever
+    /// waits for the second part is woken when the stream has ended.
+    pub fn start(output: Output) -> (Self, oneshot::Receiver<()>) {
         let (sender, frames) = unbounded_channel();
+        let (open, ended) = oneshot::channel();
         std::thread::spawn(move || {
+            let _dropped_at_the_end: oneshot::Sender<()> = open;
             let mut stream = BufReader::new(std::io::stdin().lock());
             loop {
                 match frame::next(&mut stream) {
@@ -35,11 +39,12 @@ impl Input {
                 }
             }
         });
-        Self {
+        let input = Self {
             frames,
             current: Vec::new(),
             taken: 0,
-        }
+        };
+        (input, ended)
     }
 }
 

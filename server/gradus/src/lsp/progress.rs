@@ -1,0 +1,86 @@
+//! Progress that the client shows of work that takes long.
+//!
+//! Nearly all work is done before anybody could read what is done. Only what is
+//! under way after half a second is shown, until it ends in whatever way.
+
+use std::collections::HashMap;
+use std::sync::atomic::{AtomicU32, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
+
+use tokio::sync::oneshot;
+use tower_lsp::ls_types::ProgressToken;
+
+use super::document::Document;
+use super::key::FileKey;
+use super::server::Shared;
+use super::telling::answer;
+
+/// What ends sooner is not shown.
+const SHORT: Duration = Duration::from_millis(500);
+
+/// What is shown, and the documents that it is about.
+#[derive(Debug, Default)]
+pub struct Shown {
+    next: AtomicU32,
+    documents: Mutex<HashMap<ProgressToken, FileKey>>,
+}
+
+impl Shown {
+    /// The document that a token is about, while its progress is shown.
+    pub fn document(&self, token: &ProgressToken) -> Option<FileKey> {
+        self.lock().get(token).cloned()
+    }
+
+    fn token(&self) -> ProgressToken {
+        let number = self.next.fetch_add(1, Ordering::Relaxed);
+        ProgressToken::String(format!("gradus/{number}"))
+    }
+
+    fn lock(&self) -> MutexGuard<'_, HashMap<ProgressToken, FileKey>> {
+        self.documents
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// Work under way, which ends when this is dropped.
+#[derive(Debug)]
+pub struct UnderWay {
+    _open: Option<oneshot::Sender<()>>,
+}
+
+/// Shows that work on `document` is under way, if it takes long and the client
+/// can show it.
+pub fn under_way(shared: &Arc<Shared>, document: &Document) -> UnderWay {
+    if !shared.state.world().abilities.progress {
+        return UnderWay { _open: None };
+    }
+    let (open, done) = oneshot::channel();
+    tokio::spawn(show(Arc::clone(shared), document.key.clone(), done));
+    UnderWay { _open: Some(open) }
+}
+
+async fn show(shared: Arc<Shared>, key: FileKey, mut done: oneshot::Receiver<()>) {
+    if tokio::time::timeout(SHORT, &mut done).await.is_ok() {
+        return;
+    }
+    let token = shared.progress.token();
+    let title = format!("Analysing {}", key.name());
+    let asked = answer(shared.client.create_work_done_progress(token.clone()));
+    let agreed = tokio::select! {
+        biased;
+        _ = &mut done => return,
+        agreed = asked => agreed.is_some(),
+    };
+    if !agreed {
+        return;
+    }
+    shared.progress.lock().insert(token.clone(), key);
+    let progress = shared.client.progress(token.clone(), title);
+    let progress = progress.with_cancel_button().begin().await;
+    // Nothing is ever sent: it ends when the other half is dropped.
+    let _ = done.await;
+    shared.progress.lock().remove(&token);
+    progress.finish().await;
+}
