@@ -1,11 +1,12 @@
 //! What documents and folders hold: documentSymbol and workspace/symbol.
 
 use end_to_end::lsp::{Client, Profile, selected};
-use tower_lsp::ls_types::notification::Cancel;
+use tower_lsp::ls_types::notification::{Cancel, DidChangeWorkspaceFolders};
 use tower_lsp::ls_types::request::{DocumentSymbolRequest, WorkspaceSymbolRequest};
 use tower_lsp::ls_types::{
-    CancelParams, DocumentSymbol, DocumentSymbolParams, DocumentSymbolResponse, NumberOrString,
-    SymbolInformation, SymbolKind, TextDocumentIdentifier, WorkspaceSymbolResponse,
+    CancelParams, DidChangeWorkspaceFoldersParams, DocumentSymbol, DocumentSymbolParams,
+    DocumentSymbolResponse, NumberOrString, SymbolInformation, SymbolKind, TextDocumentIdentifier,
+    Uri, WorkspaceFolder, WorkspaceFoldersChangeEvent, WorkspaceSymbolResponse,
 };
 
 use crate::{client, client_like};
@@ -220,6 +221,30 @@ fn what_is_open_counts_as_it_is_and_what_changed_on_disk_is_read_again() {
     assert_eq!(named(&mut client, "lamp"), ["tank.ladder:1 another_lamp"]);
     std::fs::remove_file(client.path("tank.ladder")).expect("removed");
     assert_eq!(named(&mut client, "lamp"), [""; 0]);
+}
+
+#[test]
+fn folders_that_are_added_are_searched_and_removed_ones_are_not() {
+    let mut client = workspace();
+    let other = tempfile::tempdir().expect("a folder");
+    std::fs::write(other.path().join("mill.ladder"), "rung: a -> spindle").expect("a file");
+    let folder = WorkspaceFolder {
+        uri: Uri::from_file_path(other.path()).expect("an address"),
+        name: "mill".to_owned(),
+    };
+    let change =
+        |added: &[WorkspaceFolder], removed: &[WorkspaceFolder]| DidChangeWorkspaceFoldersParams {
+            event: WorkspaceFoldersChangeEvent {
+                added: added.to_vec(),
+                removed: removed.to_vec(),
+            },
+        };
+    let one = std::slice::from_ref(&folder);
+    assert_eq!(named(&mut client, "spindle"), [""; 0]);
+    client.notify::<DidChangeWorkspaceFolders>(change(one, &[]));
+    assert_eq!(named(&mut client, "spindle"), ["mill.ladder:1 spindle"]);
+    client.notify::<DidChangeWorkspaceFolders>(change(&[], one));
+    assert_eq!(named(&mut client, "spindle"), [""; 0]);
 }
 
 #[test]
