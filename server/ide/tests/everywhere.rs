@@ -140,7 +140,12 @@ fn specs_answer_everywhere() {
 fn edits_lay_a_text_out_as_the_formatter_does() {
     for (path, text) in texts(&["ladder"]) {
         let ladder = Ladder::read(text.as_str().into(), &Budget::default());
-        let edits = lay_out_ladder(&ladder, Extent::Whole).expect("a layout");
+        let Some(edits) = lay_out_ladder(&ladder, Extent::Whole) else {
+            // Some fixtures only bear the ending.
+            let format = ladder.program().format;
+            assert_ne!(format, ladder::Format::Ladder, "{}", path.display());
+            continue;
+        };
         let laid = ladder::text::format(&text).text;
         assert_eq!(edited(&text, &edits), laid, "{}", path.display());
         let all = Extent::Statements(Span::new(0, text.len()));
