@@ -65,7 +65,11 @@ fn within(
                     .get(..range.end)
                     .is_some_and(|it| it.ends_with(['\n', '\r']));
             let last = range.end - usize::from(ends_before);
-            keep(statement(old, range.start).start, statement(old, last).end).collect()
+            let end = match range.end == old.len() {
+                true => old.len(),
+                false => statement(old, last).end,
+            };
+            keep(statement(old, range.start).start, end).collect()
         }
         Extent::Line(offset) => {
             let line = statement::line(old, offset);
