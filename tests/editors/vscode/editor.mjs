@@ -126,10 +126,10 @@ export class Editor {
     await until(`${count} findings: ${severity}`, async () => (await this.#count(severity)) === count);
   }
 
-  /** Goes to the next finding of the file that has the focus. */
+  /** Goes to the next finding of the file that has the focus. The key does nothing while there is none. */
   async nextFinding() {
-    await this.keys.press("F8");
-    await this.page.locator(".peekview-widget, .marker-widget").first().waitFor();
+    const told = this.page.locator(".peekview-widget, .marker-widget").first();
+    await this.pressUntil("go to the next finding", () => this.keys.press("F8"), told);
     await this.keys.press("Escape");
   }
 
