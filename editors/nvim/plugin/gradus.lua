@@ -29,11 +29,20 @@ vim.keymap.set({ 'n', 'x' }, '<Plug>(gradus-decide)', function()
   vim.lsp.buf.code_action({ context = { only = { 'refactor.gradus' }, diagnostics = {} } })
 end)
 
+local group = vim.api.nvim_create_augroup('gradus', {})
 vim.api.nvim_create_autocmd('BufNewFile', {
-  group = vim.api.nvim_create_augroup('gradus', {}),
+  group = group,
   pattern = '*.grafcet',
   callback = function(event)
     require('gradus.new_spec').watch(event.buf)
+  end,
+})
+vim.api.nvim_create_autocmd('LspNotify', {
+  group = group,
+  callback = function(event)
+    if event.data.method == 'textDocument/didChange' or event.data.method == 'textDocument/didOpen' then
+      require('gradus.findings').ask_for_others(event.buf, event.data.client_id)
+    end
   end,
 })
 

@@ -247,6 +247,16 @@ function M.test(name, run)
   tests[#tests + 1] = { name = name, run = run }
 end
 
+--- Waits until the server owes no answer: Neovim 0.11 complains of an answer for a buffer that
+--- is gone.
+local function all_is_answered()
+  vim.wait(5000, function()
+    return vim.iter(vim.lsp.get_clients()):all(function(client)
+      return next(client.requests) == nil
+    end)
+  end, 20)
+end
+
 --- Runs every case in an editor without windows or changed buffers left over from the last.
 ---@return integer failed
 function M.run_all()
@@ -261,6 +271,7 @@ function M.run_all()
       io.stdout:write((tostring(trouble):gsub('\n', '\n     ')), '\n')
     end
     vim.cmd('silent! wall!')
+    all_is_answered()
     vim.cmd('silent! only!')
     vim.cmd('silent! %bwipeout!')
   end

@@ -26,6 +26,11 @@ export function decisions(at) {
     assert.equal(tank.read(tank.spec), tank.specWith("--accept", neutralization.together.pair));
     assert.equal(tank.read(tank.ladder), tank.original);
     await editor.picture("accepted");
+    await editor.goTo(...tank.place("(v2 +", 1));
+    await editor.withoutSideBar(async () => {
+      await editor.hover("Open valve v2");
+      await editor.picture("beside");
+    });
   });
 
   test("a spec that is open changes beside the ladder, and undo takes it back", async () => {
@@ -88,6 +93,24 @@ export function decisions(at) {
     assert.equal(tank.read(tank.ladder), edited);
     assert.deepEqual(tank.findings(), []);
     assert.equal(tank.read(tank.spec), tank.specWith("--accept", neutralization.together.pair));
+  });
+
+  test("the spec's next line is offered as ghost text, and Tab takes it", async () => {
+    const { editor } = at;
+    const tank = newTank("ghost");
+    gradus("convert", tank.ladder);
+    const before = tank.read(tank.spec);
+    await editor.open(tank.spec);
+    await editor.verdictIs(/in step/);
+    await editor.keys.press("Control+End");
+    await editor.keys.press("Enter");
+    await editor.keys.type("//! acc");
+    await editor.takeGhost(tank.spec, neutralization.together.decision);
+    await editor.saveAll();
+    const written = tank.read(tank.spec);
+    assert.equal(written, `${before}\n${neutralization.together.decision}`);
+    const updated = tank.specUpdated(before, "--accept", neutralization.together.pair);
+    assert.equal(tank.specUpdated(`${written}\n`), updated);
   });
 
   test("a rename changes ladder and spec together", async () => {

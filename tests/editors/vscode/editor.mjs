@@ -99,11 +99,45 @@ export class Editor {
     return (await this.#hover.count()) === 0;
   }
 
-  /** Opens the light bulb's menu at the cursor and takes the first action whose title matches. */
-  async act(title) {
+  /** What the editor's own inspector says of the name at the cursor. */
+  async tokenAtCursor() {
+    const inspector = this.page.locator(".token-inspect-widget");
+    await this.run("Developer: Inspect Editor Tokens and Scopes");
+    await inspector.filter({ hasText: "semantic token type" }).waitFor();
+    const said = plain(await inspector.innerText());
+    await this.keys.press("Escape");
+    await inspector.waitFor({ state: "hidden" });
+    return said;
+  }
+
+  /** Takes the ghost text behind the cursor, once it makes the line that is wanted. */
+  async takeGhost(path, line) {
+    const ghost = this.text(path).locator('[class*="ghost-text"]');
+    await ghost.first().waitFor();
+    await this.shows(path, line);
+    await this.keys.press("Tab");
+    await until("the ghost text is taken", async () => (await ghost.count()) === 0);
+  }
+
+  /** Waits until a rendered page holds a text. */
+  async previews(name, text) {
+    await this.page.locator(".tab", { hasText: name }).waitFor();
+    await until(`the page ${name} holds ${text}`, async () => {
+      const frames = this.page.frames().filter((frame) => frame !== this.page.mainFrame());
+      const texts = frames.map((frame) => frame.evaluate(() => document.body?.innerText ?? "").catch(() => ""));
+      return (await Promise.all(texts)).some((shown) => shown.includes(text));
+    });
+  }
+
+  /**
+   * Opens the light bulb's menu at the cursor, or the one that a command opens, and takes the first action whose title
+   * matches.
+   */
+  async act(title, menu) {
     const rows = this.page.locator(".action-widget .monaco-list-row.action");
     const wanted = rows.filter({ hasText: title });
-    await this.pressUntil(`offer ${title}`, () => this.keys.press("Control+."), wanted.first());
+    const ask = () => (menu ? this.run(menu) : this.keys.press("Control+."));
+    await this.pressUntil(`offer ${title}`, ask, wanted.first());
     const focused = this.page.locator(".action-widget .monaco-list-row.action.focused");
     for (let i = await rows.count(); i > 0; i--) {
       if (title.test(plain(await focused.innerText()))) break;
@@ -126,10 +160,10 @@ export class Editor {
     await until(`${count} findings: ${severity}`, async () => (await this.#count(severity)) === count);
   }
 
-  /** Goes to the next finding of the file that has the focus. */
+  /** Goes to the next finding of the file that has the focus. The key does nothing while there is none. */
   async nextFinding() {
-    await this.keys.press("F8");
-    await this.page.locator(".peekview-widget, .marker-widget").first().waitFor();
+    const told = this.page.locator(".peekview-widget, .marker-widget").first();
+    await this.pressUntil("go to the next finding", () => this.keys.press("F8"), told);
     await this.keys.press("Escape");
   }
 
@@ -211,6 +245,16 @@ export class Editor {
 
   async verdictIs(words) {
     await this.verdict.filter({ hasText: words }).waitFor();
+  }
+
+  /** Does something while the side bar leaves its place to the texts. */
+  async withoutSideBar(something) {
+    const sideBar = this.page.locator(".part.sidebar");
+    await this.keys.press("Control+b");
+    await sideBar.waitFor({ state: "hidden" });
+    await something();
+    await this.keys.press("Control+b");
+    await sideBar.waitFor();
   }
 
   async picture(name) {

@@ -4,6 +4,7 @@ import { writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
 import { Copy, cases, fixture, realFile } from "./gradus.mjs";
+import { until } from "./workbench.mjs";
 
 const { neutralization, real } = cases;
 
@@ -27,6 +28,32 @@ export function hovers(at) {
     const said = await editor.hover(real.hover.shows[0]);
     for (const words of real.hover.shows) assert.ok(said.includes(words), `no ${words} in:\n${said}`);
     await editor.picture("hover-l5x");
+  });
+
+  test("a coil is told from a contact, and a state from other variables", async () => {
+    const { editor, workbench } = at;
+    const tank = new Copy(workbench.folder, "tokens", fixture(neutralization.file));
+    await editor.open(tank.ladder);
+    await editor.verdictIs(/no spec/);
+    for (const [place, into, ...kinds] of [
+      ["-> v2", 3, "coil", "state"],
+      ["/ls3 * (/tl", 1, "contact"],
+      ["/v3 *", 1, "contact", "interlock"],
+    ]) {
+      await editor.goTo(...tank.place(place, into));
+      const told = await editor.tokenAtCursor();
+      for (const kind of kinds) assert.match(told, new RegExp(`\\b${kind}\\b`), `at ${place}`);
+    }
+  });
+
+  test("the page of a finding's code is shown beside it", async () => {
+    const { editor, workbench } = at;
+    const doubled = new Copy(workbench.folder, "doubled", fixture("fixtures/findings/double-coil.ladder"));
+    await editor.open(doubled.ladder);
+    await until("a finding", async () => (await editor.underlined(doubled.ladder, "warning").count()) > 0);
+    await editor.nextFinding();
+    await editor.act(/Explain G2002/, "Source Action...");
+    await editor.previews("G2002.md", "G2002");
   });
 
   test("XML that holds no ladder gets no findings, no hover and no status", async () => {

@@ -9,7 +9,7 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use ropey::Rope;
-use source::Edit;
+use source::{Edit, Span};
 use tower_lsp::ls_types::{
     AnnotatedTextEdit, ChangeAnnotation, CreateFile, CreateFileOptions, DocumentChangeOperation,
     DocumentChanges, OneOf, OptionalVersionedTextDocumentIdentifier, Range, ResourceOp,
@@ -141,10 +141,36 @@ const ANNOTATION: &str = "gradus";
 
 /// Edits in the protocol's types, in the order of the text.
 pub fn text_edits(rope: &Rope, edits: &[Edit], encoding: Encoding) -> Vec<TextEdit> {
-    let mut in_order: Vec<&Edit> = edits.iter().collect();
+    let mut in_order = edits.to_vec();
     in_order.sort_by_key(|edit| edit.span);
-    let edit = |edit: &Edit| TextEdit::new(encoding.range(rope, edit.span), edit.text.clone());
+    if let Some((last, before)) = in_order.split_last_mut() {
+        let kept = before.last().map_or(0, |it| it.span.range().end);
+        end_in_last_line(rope, last, kept);
+    }
+    let edit = |edit: Edit| TextEdit::new(encoding.range(rope, edit.span), edit.text);
     in_order.into_iter().map(edit).collect()
+}
+
+/// Has lines that are put behind the last line end begin before it, which makes
+/// the same text, unless `kept`, where other edits end, is behind that. Neovim
+/// has no line behind the last line end, and adds a blank one to lines that are
+/// put there.
+fn end_in_last_line(rope: &Rope, edit: &mut Edit, kept: usize) {
+    let length = rope.len_bytes();
+    let line_end = ["\r\n", "\n", "\r"].into_iter().find(|line_end| {
+        let start = length.checked_sub(line_end.len());
+        let behind = start.and_then(|start| rope.get_byte_slice(start..));
+        behind.is_some_and(|behind| behind == *line_end)
+    });
+    let Some(line_end) = line_end else { return };
+    let start = length - line_end.len();
+    if edit.span.range() == (length..length)
+        && kept <= start
+        && let Some(lines) = edit.text.strip_suffix(line_end)
+    {
+        edit.text = format!("{line_end}{lines}");
+        edit.span = Span::at(start);
+    }
 }
 
 fn first_text(text: String) -> TextEdit {
@@ -166,7 +192,6 @@ mod tests {
     use std::str::FromStr;
 
     use serde_json::{Value, json};
-    use source::Span;
 
     use super::*;
     use crate::lsp::abilities::Abilities;
@@ -196,6 +221,52 @@ mod tests {
             "start": { "line": line, "character": from },
             "end": { "line": line, "character": to },
         })
+    }
+
+    /// The edits that make `new` of `old`, as `line:column-line:column text`.
+    #[track_caller]
+    fn check(old: &str, new: &str, expected: &[&str]) {
+        let rope = Rope::from_str(old);
+        let edits = text_edits(&rope, &ide::changed(old, new), Encoding::Utf16);
+        let said = edits.iter().map(|it| {
+            let (from, to) = (it.range.start, it.range.end);
+            let (line, column) = (from.line, from.character);
+            format!(
+                "{line}:{column}-{}:{} {:?}",
+                to.line, to.character, it.new_text
+            )
+        });
+        assert_eq!(said.collect::<Vec<_>>(), expected);
+    }
+
+    #[test]
+    fn lines_behind_the_last_begin_at_its_end() {
+        check("a\n", "a\nb\n", &[r#"0:1-0:1 "\nb""#]);
+        check("a\n", "a\n\nb\nc\n", &[r#"0:1-0:1 "\n\nb\nc""#]);
+        check("a\r\n", "a\r\nb\r\n", &[r#"0:1-0:1 "\r\nb""#]);
+        check("\n", "\nb\n", &[r#"0:0-0:0 "\nb""#]);
+        // With no line end there is nothing to begin before, and none to add.
+        check("a", "a\nb", &[r#"0:1-0:1 "\nb""#]);
+        check("", "b\n", &[r#"0:0-0:0 "b\n""#]);
+        check("a\n", "a\nb", &[r#"1:0-1:0 "b""#]);
+        check("a\n", "b\na\n", &[r#"0:0-0:0 "b\n""#]);
+    }
+
+    #[test]
+    fn lines_behind_the_last_stay_behind_other_edits() {
+        let rope = Rope::from_str("a\n");
+        let edits = [(1, 2, "b\n"), (2, 2, "c\n")].map(|(start, end, text)| Edit {
+            span: Span::new(start, end),
+            text: text.to_owned(),
+        });
+        let sent = text_edits(&rope, &edits, Encoding::Utf16);
+        let sent = serde_json::to_value(sent).expect("edits");
+        let at = |line: u32, character: u32| json!({ "line": line, "character": character });
+        let expected = json!([
+            { "range": { "start": at(0, 1), "end": at(1, 0) }, "newText": "b\n" },
+            { "range": { "start": at(1, 0), "end": at(1, 0) }, "newText": "c\n" },
+        ]);
+        assert_eq!(sent, expected);
     }
 
     #[test]

@@ -130,17 +130,21 @@ rung: (ls2 + m) * /e -> m
 rung: (ls3 + v3) * ls1 -> v3
 ";
 
-    /// The titles of what can be done at `$0`, or where `$0` and `$1` are around
-    /// it, with `spec` beside the ladder.
-    fn titles(text: &str, spec: Option<&str>) -> Vec<String> {
+    /// A text without `$0` and `$1`, and what is selected between them.
+    fn selected(text: &str) -> (String, Span) {
         let start = text.find("$0").expect("a cursor");
         let text = text.replace("$0", "");
         let end = text.find("$1").unwrap_or(start);
-        let text = text.replace("$1", "");
+        (text.replace("$1", ""), Span::new(start, end))
+    }
+
+    /// The titles of what can be done at `$0`, or where `$0` and `$1` are around
+    /// it, with `spec` beside the ladder.
+    fn titles(text: &str, spec: Option<&str>) -> Vec<String> {
+        let (text, span) = selected(text);
         let budget = Budget::default();
         let ladder = Ladder::read(text.into(), &budget);
         let spec = spec.map(|text| Spec::read(text.into()));
-        let span = Span::new(start, end);
         let all = actions_in_ladder(
             &ladder,
             spec.as_ref(),
@@ -192,25 +196,41 @@ rung: (ls3 + v3) * ls1 -> v3
     }
 
     #[test]
+    fn a_selection_of_one_name_or_none_is_a_cursor() {
+        let cursor = titles(&at("/ls2 -> v"), None);
+        let rung = "rung: (s + v1) * /ls2 -> v1\n";
+        for selected in [
+            "rung: (s + v1) * /ls2 -> $0v$11\n",
+            "rung: (s + v1) * /ls2 -> v$01$1\n",
+            "rung: (s + v1) * /ls2 $0-> v1$1\n",
+            "r$0u$1ng: (s + v1) * /ls2 -> v1\n",
+        ] {
+            assert_eq!(titles(&TANK.replacen(rung, selected, 1), None), cursor);
+        }
+    }
+
+    #[test]
     fn on_an_input_nothing_is_decided() {
         let spec = "//! initial v1\n";
         let text = "rung: 1 -> a\nrung: $0s -> b\n";
         assert_eq!(titles(text, Some(spec)), [""; 0]);
     }
 
-    /// The titles of what can be done at `$0` in a spec beside the tank.
+    /// The titles of what can be done at `$0`, or where `$0` and `$1` are around
+    /// it, in a spec beside the tank.
     fn in_spec(text: &str) -> Vec<String> {
-        let start = text.find("$0").expect("a cursor");
+        let (text, span) = selected(text);
         let budget = Budget::default();
         let ladder = Ladder::read(TANK.into(), &budget);
-        let spec = Spec::read(text.replace("$0", "").into());
+        let spec = Spec::read(text.into());
         let findings = spec.findings(Some(&ladder), &budget);
+        let start = span.range().start;
         let here = findings.into_iter().filter(|it| it.span.touches(start));
         let here: Vec<Diagnostic> = here.collect();
         let all = actions_in_spec(
             &spec,
             Some(&ladder),
-            Span::at(start),
+            span,
             &here,
             Evidence::Possible,
             &budget,
@@ -242,5 +262,29 @@ rung: (ls3 + v3) * ls1 -> v3
     fn a_decision_can_be_taken_back_where_it_stands() {
         let titles = in_spec("//! accept v1 $0-> v2\n");
         assert_eq!(titles, ["Take back: v1 -> v2 accepted"]);
+    }
+
+    #[test]
+    fn a_selection_of_one_name_or_none_is_a_cursor_in_a_spec_too() {
+        let first = |text| {
+            in_spec(text)
+                .into_iter()
+                .find(|it| it.starts_with("Accept"))
+        };
+        for selected in [
+            "Step Xv1 for $0v1\nStep Xv3 for v3\n",
+            "Step Xv1 for $0v$11\nStep Xv3 for v3\n",
+            "Step Xv1 for v$01$1\nStep Xv3 for v3\n",
+            "Step Xv1 $0for v1$1\nStep Xv3 for v3\n",
+        ] {
+            assert_eq!(
+                first(selected).as_deref(),
+                Some("Accept v1 -> v2 and m together (AND, handover, all on ls2*/ls3*/e)")
+            );
+        }
+        assert_eq!(
+            first("Step Xv3 for $0v3\nStep Xv1 for v1$1\n").as_deref(),
+            Some("Accept v3 -> v1 (not suggested)")
+        );
     }
 }

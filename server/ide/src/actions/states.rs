@@ -11,17 +11,17 @@ use super::{Action, ActionKind, Effect, pair};
 use crate::change::listed;
 use crate::{Change, Decided, Departing, Ladder, Spec, Standing, legible};
 
-/// The states that a place in a ladder is about: with a selection all that are
-/// named in it, else the one that is named there, else those of the rung.
+/// The states that a place in a ladder is about: with a selection of several
+/// names all that are named in it, else the one that is named there, else those
+/// of the rung.
 pub(super) fn in_ladder(ladder: &Ladder, span: Span) -> Vec<Name> {
     let states = &ladder.analysis.states;
     let is_state = |name: &&Name| states.find(name).is_some();
-    if !span.is_empty() {
-        let selected = ladder.names.all().iter();
-        let selected = selected.filter(|it| span.start <= it.span.start && it.span.end <= span.end);
+    let names = ladder.names.all();
+    let Some(offset) = cursor(span, names.iter().map(|it| it.span)) else {
+        let selected = names.iter().filter(|it| holds(span, it.span));
         return distinct(selected.map(|it| &it.name).filter(is_state));
-    }
-    let offset = span.range().start;
+    };
     if let Some(mention) = ladder.names.at(offset)
         && is_state(&&mention.name)
     {
@@ -63,13 +63,36 @@ pub(super) fn in_spec(spec: &Spec, span: Span) -> Vec<Name> {
         }
         _ => None,
     };
-    let mentions = spec.reading.places.mentions.iter();
-    let here = mentions.filter(|it| match span.is_empty() {
-        true => it.span.touches(span.range().start),
-        false => span.start <= it.span.start && it.span.end <= span.end,
+    let mentions = &spec.reading.places.mentions;
+    let cursor = cursor(span, mentions.iter().map(|it| it.span));
+    let here = mentions.iter().filter(|it| match cursor {
+        Some(offset) => it.span.touches(offset),
+        None => holds(span, it.span),
     });
     let names: Vec<Name> = here.filter_map(state_of).collect();
     distinct(names.iter())
+}
+
+/// Where the cursor is, unless `span` selects of several `names`. Some editors
+/// always select the character under their cursor, so that a selection alone
+/// does not say that somebody made it.
+fn cursor(span: Span, names: impl Iterator<Item = Span>) -> Option<usize> {
+    let at = span.range().start;
+    if span.is_empty() {
+        return Some(at);
+    }
+    let touched = names.filter(|it| it.start < span.end && span.start < it.end);
+    let touched: Vec<Span> = touched.collect();
+    match &*touched {
+        [one] => Some(one.range().start),
+        // An index is a name within the name of its element.
+        all if all.iter().all(|it| holds(*it, span)) => Some(at),
+        _ => None,
+    }
+}
+
+fn holds(outer: Span, inner: Span) -> bool {
+    outer.start <= inner.start && inner.end <= outer.end
 }
 
 fn distinct<'n>(names: impl Iterator<Item = &'n Name>) -> Vec<Name> {
