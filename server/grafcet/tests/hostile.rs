@@ -1,26 +1,8 @@
 //! Rule texts that nest too deep, go on for ever, or are faulty in thousands of
 //! places: each is read, laid out, written and rewritten within a small stack.
 
+use end_to_end::on_a_small_stack;
 use grafcet::{format, read, rewrite, write};
-
-/// Stack of the thread that reads: a quarter of what threads of Rust have, or
-/// all of that where nothing is optimised and frames are several times larger.
-const STACK: usize = if cfg!(debug_assertions) {
-    2 << 20
-} else {
-    512 << 10
-};
-
-fn on_a_small_stack<T: Send>(work: impl FnOnce() -> T + Send) -> T {
-    std::thread::scope(|scope| {
-        std::thread::Builder::new()
-            .stack_size(STACK)
-            .spawn_scoped(scope, work)
-            .expect("a thread")
-            .join()
-            .expect("work that comes back")
-    })
-}
 
 const HEAD: &str =
     "Input m\nStep p1, p2\nTransition t0\nMarking p1\n\nTransitions:\nt0: p1*m |- @p2\n";

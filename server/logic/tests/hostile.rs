@@ -1,26 +1,8 @@
 //! Expressions that nest too deep or go on for ever.
 
+use end_to_end::on_a_small_stack;
 use logic::notation::{self, Lexer};
 use logic::{Atoms, Budget, Function, Stop};
-
-/// Stack of the thread that reads: a quarter of what threads of Rust have, or
-/// all of that where nothing is optimised and frames are several times larger.
-const STACK: usize = if cfg!(debug_assertions) {
-    2 << 20
-} else {
-    512 << 10
-};
-
-fn on_a_small_stack<T: Send>(work: impl FnOnce() -> T + Send) -> T {
-    std::thread::scope(|scope| {
-        std::thread::Builder::new()
-            .stack_size(STACK)
-            .spawn_scoped(scope, work)
-            .expect("a thread")
-            .join()
-            .expect("work that comes back")
-    })
-}
 
 #[test]
 fn nesting_is_refused_at_its_place() {

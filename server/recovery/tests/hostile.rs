@@ -1,6 +1,7 @@
 //! Ladders out of all proportion: conditions, successions and the spec come
 //! back, within a small stack and the budget.
 
+use end_to_end::on_a_small_stack;
 use logic::{Budget, Stop};
 use recovery::{analyse, conversion};
 
@@ -11,25 +12,6 @@ const LONG: usize = if cfg!(debug_assertions) {
 } else {
     200_000
 };
-
-/// Stack of the thread that computes: a quarter of what threads of Rust have, or
-/// all of that where nothing is optimised and frames are several times larger.
-const STACK: usize = if cfg!(debug_assertions) {
-    2 << 20
-} else {
-    512 << 10
-};
-
-fn on_a_small_stack<T: Send>(work: impl FnOnce() -> T + Send) -> T {
-    std::thread::scope(|scope| {
-        std::thread::Builder::new()
-            .stack_size(STACK)
-            .spawn_scoped(scope, work)
-            .expect("a thread")
-            .join()
-            .expect("work that comes back")
-    })
-}
 
 /// Goes from `text` to the text of its spec and gives whether each coil has a
 /// condition within `nodes`.
