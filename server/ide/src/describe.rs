@@ -45,12 +45,12 @@ pub(crate) fn summary(kind: &ElementKind) -> String {
                 TimerKind::Pulse => "pulse timer",
                 TimerKind::Retentive => "retentive timer",
             };
-            match timer.preset_ms {
-                Some(preset) => {
-                    format!("{kind}, {}; its output is `{}`", time(preset), timer.output)
-                }
-                None => format!("{kind}; its output is `{}`", timer.output),
-            }
+            let preset = match (timer.preset_ms, &timer.preset_from) {
+                (Some(preset), _) => format!(", {}", time(preset)),
+                (None, Some(from)) => format!(", as long as {} says", from.name),
+                (None, None) => String::new(),
+            };
+            format!("{kind}{preset}; its output is `{}`", timer.output)
         }
         ElementKind::Counter(counter) => {
             let kind = match counter.kind {
@@ -59,10 +59,12 @@ pub(crate) fn summary(kind: &ElementKind) -> String {
                 CounterKind::UpDown => "counts up and down",
                 CounterKind::Circular => "counts round and round",
             };
-            match counter.preset {
-                Some(preset) => format!("{kind}, to {preset}; its output is `{}`", counter.output),
-                None => format!("{kind}; its output is `{}`", counter.output),
-            }
+            let preset = match (counter.preset, &counter.preset_from) {
+                (Some(preset), _) => format!(", to {preset}"),
+                (None, Some(from)) => format!(", to what {} says", from.name),
+                (None, None) => String::new(),
+            };
+            format!("{kind}{preset}; its output is `{}`", counter.output)
         }
         ElementKind::Assign(assignment) => match &assignment.value {
             Value::Constant(value) => format!("{}: becomes {value}", assignment.mnemonic),
@@ -86,5 +88,31 @@ pub(crate) fn summary(kind: &ElementKind) -> String {
             }
             Familiarity::Unknown => "unknown box: what it writes is opaque".to_owned(),
         },
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[track_caller]
+    fn check(output: &str, wanted: &str) {
+        let program = ::ladder::read(format!("rung: go -> {output}").as_bytes()).program;
+        let network = &program.routines[0].rungs[0].network;
+        let (_, last) = network.elements().last().expect("an element");
+        assert_eq!(summary(&last.kind), wanted);
+    }
+
+    #[test]
+    fn a_preset_is_a_number_or_what_a_variable_holds() {
+        check("TON(t1, 5s)", "on-delay timer, 5s; its output is `t1.Q`");
+        check(
+            "TON(t1, wait)",
+            "on-delay timer, as long as wait says; its output is `t1.Q`",
+        );
+        check(
+            "CTU(c1, most)",
+            "counts up, to what most says; its output is `c1.Q`",
+        );
     }
 }

@@ -1,6 +1,8 @@
 //! Whether a program says the same as another, up to the name of one variable.
 
-use ::ladder::{Declaration, ElementKind, Operand, Program, Reading, Routine, Rung, Value};
+use ::ladder::{
+    Assignment, Declaration, ElementKind, Operand, Program, Reading, Routine, Rung, Value,
+};
 use logic::Name;
 use source::Span;
 
@@ -127,58 +129,23 @@ fn mapped(
     name: &dyn Fn(&Name) -> Name,
 ) -> ElementKind {
     let mut kind = kind.clone();
-    let replace = |it: &mut Operand| *it = operand(it);
-    let all = |list: &mut Vec<Operand>| list.iter_mut().for_each(replace);
+    for variable in kind.variables_mut() {
+        *variable = operand(variable);
+    }
+    // Routines and labels have names of their own.
+    if let Some(destination) = kind.destination_mut() {
+        destination.span = NOWHERE;
+    }
     match &mut kind {
-        ElementKind::Rail
-        | ElementKind::Invert
-        | ElementKind::Open
-        | ElementKind::Gate(_)
-        | ElementKind::Return { .. }
-        | ElementKind::Zone => {}
-        ElementKind::Contact(contact) => replace(&mut contact.operand),
-        ElementKind::Coil(coil) => replace(&mut coil.operand),
-        ElementKind::Comparison(comparison) => {
-            replace(&mut comparison.left);
-            replace(&mut comparison.right);
-        }
-        ElementKind::OneShot(shot) => shot.memory.iter_mut().for_each(replace),
-        ElementKind::Timer(timer) => {
-            replace(&mut timer.instance);
-            timer.output = name(&timer.output);
-        }
-        ElementKind::Counter(counter) => {
-            replace(&mut counter.instance);
-            counter.output = name(&counter.output);
-        }
-        ElementKind::Assign(assignment) => {
-            replace(&mut assignment.target);
-            match &mut assignment.value {
-                Value::Constant(_) | Value::Increment(_) => {}
-                Value::Copy(from) => replace(from),
-                // The term is its text and what it reads; of the two, only the
-                // second tells names from other words.
-                Value::Term { text, reads } => {
-                    *text = "".into();
-                    all(reads);
-                }
-            }
-        }
-        ElementKind::ResetBox(it) => replace(it),
-        // Routines and labels have names of their own.
-        ElementKind::Jump(it) | ElementKind::Label(it) => it.span = NOWHERE,
-        ElementKind::Call(call) => {
-            call.routine.span = NOWHERE;
-            all(&mut call.arguments);
-        }
-        ElementKind::Block(block) => {
-            block.instance.iter_mut().for_each(replace);
-            block
-                .pins
-                .iter_mut()
-                .filter_map(|pin| pin.operand.as_mut())
-                .for_each(replace);
-        }
+        ElementKind::Timer(timer) => timer.output = name(&timer.output),
+        ElementKind::Counter(counter) => counter.output = name(&counter.output),
+        // A term is its text and what it reads; of the two, only the second
+        // tells names from other words.
+        ElementKind::Assign(Assignment {
+            value: Value::Term { text, .. },
+            ..
+        }) => *text = "".into(),
+        _ => {}
     }
     kind
 }

@@ -147,6 +147,20 @@ fn members_and_terms_follow() {
 }
 
 #[test]
+fn presets_that_variables_hold_follow() {
+    check(
+        "rung: go -> TON(t1, wait$0), CTU(c1, wait)\n",
+        "pause",
+        "rung: go -> TON(t1, pause), CTU(c1, pause)\n",
+    );
+    check(
+        "rung: go$0 -> TON(t1, wait)\n",
+        "begin",
+        "rung: begin -> TON(t1, wait)\n",
+    );
+}
+
+#[test]
 fn an_address_goes_on_to_mean_the_variable() {
     check(
         "input s$0 %I0\nrung: s * %I0 -> a\n",

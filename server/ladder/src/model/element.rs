@@ -351,4 +351,55 @@ impl ElementKind {
             _ => Vec::new(),
         }
     }
+
+    /// Every operand that names a variable, to change its name or its place.
+    pub fn variables_mut(&mut self) -> Vec<&mut Operand> {
+        match self {
+            Self::Rail
+            | Self::Invert
+            | Self::Open
+            | Self::Gate(_)
+            | Self::Jump(_)
+            | Self::Label(_)
+            | Self::Return { .. }
+            | Self::Zone => Vec::new(),
+            Self::Contact(contact) => vec![&mut contact.operand],
+            Self::Coil(coil) => vec![&mut coil.operand],
+            Self::Comparison(comparison) => vec![&mut comparison.left, &mut comparison.right],
+            Self::OneShot(shot) => shot.memory.iter_mut().collect(),
+            Self::Timer(timer) => {
+                let preset = timer.preset_from.iter_mut();
+                preset.chain([&mut timer.instance]).collect()
+            }
+            Self::Counter(counter) => {
+                let preset = counter.preset_from.iter_mut();
+                preset.chain([&mut counter.instance]).collect()
+            }
+            Self::Assign(assignment) => {
+                let read = match &mut assignment.value {
+                    Value::Constant(_) | Value::Increment(_) => &mut [],
+                    Value::Copy(operand) => std::slice::from_mut(operand),
+                    Value::Term { reads, .. } => reads.as_mut_slice(),
+                };
+                read.iter_mut().chain([&mut assignment.target]).collect()
+            }
+            Self::ResetBox(operand) => vec![operand],
+            Self::Call(call) => call.arguments.iter_mut().collect(),
+            Self::Block(block) => {
+                let pins = block.pins.iter_mut();
+                let at_pins = pins.filter_map(|pin| pin.operand.as_mut());
+                block.instance.iter_mut().chain(at_pins).collect()
+            }
+        }
+    }
+
+    /// The label or routine that the element names, to change its name or its
+    /// place.
+    pub fn destination_mut(&mut self) -> Option<&mut Operand> {
+        match self {
+            Self::Jump(label) | Self::Label(label) => Some(label),
+            Self::Call(call) => Some(&mut call.routine),
+            _ => None,
+        }
+    }
 }

@@ -7,7 +7,7 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use ladder::{ContactKind, Element, ElementKind, Gate, Network, Operand, Program, Value};
+use ladder::{ContactKind, Element, ElementKind, Gate, Network, Operand, Program};
 use source::{LineIndex, Span};
 
 /// The text of a file under `fixtures`.
@@ -113,49 +113,8 @@ pub fn network_said(network: &Network) -> String {
 
 fn without_places(kind: &mut ElementKind) {
     let clear = |operand: &mut Operand| operand.span = Span::default();
-    match kind {
-        ElementKind::Contact(contact) => clear(&mut contact.operand),
-        ElementKind::Coil(coil) => clear(&mut coil.operand),
-        ElementKind::Comparison(comparison) => {
-            clear(&mut comparison.left);
-            clear(&mut comparison.right);
-        }
-        ElementKind::OneShot(shot) => shot.memory.iter_mut().for_each(clear),
-        ElementKind::Timer(timer) => {
-            clear(&mut timer.instance);
-            timer.preset_from.iter_mut().for_each(clear);
-        }
-        ElementKind::Counter(counter) => {
-            clear(&mut counter.instance);
-            counter.preset_from.iter_mut().for_each(clear);
-        }
-        ElementKind::Assign(assignment) => {
-            clear(&mut assignment.target);
-            match &mut assignment.value {
-                Value::Copy(operand) => clear(operand),
-                Value::Term { reads, .. } => reads.iter_mut().for_each(clear),
-                Value::Constant(_) | Value::Increment(_) => {}
-            }
-        }
-        ElementKind::ResetBox(operand)
-        | ElementKind::Jump(operand)
-        | ElementKind::Label(operand) => clear(operand),
-        ElementKind::Call(call) => {
-            clear(&mut call.routine);
-            call.arguments.iter_mut().for_each(clear);
-        }
-        ElementKind::Block(block) => {
-            block.instance.iter_mut().for_each(clear);
-            let operands = block.pins.iter_mut().filter_map(|pin| pin.operand.as_mut());
-            operands.for_each(clear);
-        }
-        ElementKind::Rail
-        | ElementKind::Invert
-        | ElementKind::Open
-        | ElementKind::Gate(_)
-        | ElementKind::Return { .. }
-        | ElementKind::Zone => {}
-    }
+    kind.variables_mut().into_iter().for_each(clear);
+    kind.destination_mut().into_iter().for_each(clear);
 }
 
 /// Every place that a network mentions.
