@@ -5,6 +5,7 @@ specification and fails on one that does not fit. The capabilities are those
 that editors have been recorded to announce.
 """
 
+import asyncio
 import os
 import pathlib
 
@@ -12,6 +13,7 @@ import pytest
 import pytest_lsp
 from lsprotocol import types
 from pytest_lsp import ClientServerConfig, LanguageClient, client_capabilities
+from pytest_lsp.client import DEFAULT_CLIENT_FEATURES, default_converter, register_lsp_features
 
 REPOSITORY = pathlib.Path(__file__).parents[3]
 TANK = REPOSITORY / "fixtures" / "neutralization" / "neutralization.ladder"
@@ -25,9 +27,25 @@ REFRESHES = [
 ]
 
 
+def attentive_client() -> LanguageClient:
+    """A client that keeps every publication of findings in its order.
+
+    Several arrive between two looks of a test; waiting for the next would miss some.
+    """
+    client = LanguageClient(converter_factory=default_converter)
+    client.published = asyncio.Queue()
+
+    def keep(params: types.PublishDiagnosticsParams):
+        client.published.put_nowait(params)
+
+    keeps = {types.TEXT_DOCUMENT_PUBLISH_DIAGNOSTICS: keep}
+    register_lsp_features(client, DEFAULT_CLIENT_FEATURES | keeps)
+    return client
+
+
 @pytest_lsp.fixture(
     params=["visual-studio-code", "neovim", "emacs"],
-    config=ClientServerConfig(server_command=[SERVER, "lsp"]),
+    config=ClientServerConfig(server_command=[SERVER, "lsp"], client_factory=attentive_client),
 )
 async def client(request, lsp_client: LanguageClient, tmp_path: pathlib.Path):
     lsp_client.folder = tmp_path
@@ -65,7 +83,7 @@ async def findings(client: LanguageClient, uri: str, version: int) -> list[types
         report = await client.text_document_diagnostic_async(params)
         return list(report.items)
     while True:
-        told = await client.wait_for_notification(types.TEXT_DOCUMENT_PUBLISH_DIAGNOSTICS)
+        told = await client.published.get()
         if told.uri == uri and told.version == version:
             return list(told.diagnostics)
 
