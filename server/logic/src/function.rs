@@ -1,4 +1,5 @@
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
 use biodivine_lib_bdd::{Bdd, BddNode, BddPointer, BddVariable};
 use rustc_hash::FxHashMap;
@@ -19,15 +20,21 @@ mod literals;
 /// Two functions are equal, as values, exactly when they denote the same
 /// Boolean function: the diagrams are canonical and the support holds no atom
 /// that the function does not depend on.
+///
+/// Clones share all they hold.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct Function {
+pub struct Function(Arc<Shared>);
+
+/// What the clones of a function share.
+#[derive(Debug, PartialEq, Eq, Hash)]
+struct Shared {
     /// Atoms the function depends on, ascending; the diagram's variable k is
     /// the k-th of them.
-    pub(crate) support: Vec<AtomId>,
+    support: Vec<AtomId>,
     /// Nodes in the order of a walk that goes down the high branches first and
     /// lists a node after all below it: the order that operations leave them
     /// in, by which equal functions are equal values.
-    pub(crate) diagram: Bdd,
+    diagram: Bdd,
 }
 
 /// An atom or its complement.
@@ -47,13 +54,15 @@ const FEW_KEPT: usize = 4;
 const MOST_VARIABLES: usize = u16::MAX as usize - 2;
 
 impl Function {
+    /// The function of `diagram` over `support`, all of which it depends on.
+    fn over(support: Vec<AtomId>, diagram: Bdd) -> Self {
+        Self(Arc::new(Shared { support, diagram }))
+    }
+
     /// The function that is always `value`.
     pub fn constant(value: bool) -> Self {
         let nodes = constants(0);
-        Self {
-            support: Vec::new(),
-            diagram: checked(if value { &nodes } else { &nodes[..1] }),
-        }
+        Self::over(Vec::new(), checked(if value { &nodes } else { &nodes[..1] }))
     }
 
     /// The function that is `atom`, or its complement.
@@ -65,10 +74,7 @@ impl Function {
             ends[0],
             ends[1],
         ));
-        Self {
-            support: vec![atom],
-            diagram: checked(&nodes),
-        }
+        Self::over(vec![atom], checked(&nodes))
     }
 
     /// The function that is `atom`.
@@ -106,36 +112,44 @@ impl Function {
 
     /// The atoms that the function depends on, ascending.
     pub fn support(&self) -> &[AtomId] {
-        &self.support
+        &self.0.support
+    }
+
+    /// Its diagram, of which variable k is the k-th atom of the support.
+    pub(crate) fn diagram(&self) -> &Bdd {
+        &self.0.diagram
+    }
+
+    /// Whether the two are clones of one function: cheap to ask, and not
+    /// always true of equal functions.
+    pub fn is_clone_of(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.0, &other.0)
     }
 
     /// Whether the function depends on `atom`.
     pub fn depends_on(&self, atom: AtomId) -> bool {
-        self.support.binary_search(&atom).is_ok()
+        self.support().binary_search(&atom).is_ok()
     }
 
     /// Number of nodes of the diagram, terminals included.
     pub fn nodes(&self) -> usize {
-        self.diagram.size()
+        self.diagram().size()
     }
 
     /// Whether the function is always true.
     pub fn is_true(&self) -> bool {
-        self.diagram.is_true()
+        self.diagram().is_true()
     }
 
     /// Whether the function is never true.
     pub fn is_false(&self) -> bool {
-        self.diagram.is_false()
+        self.diagram().is_false()
     }
 
     /// The complement. It has as many nodes and needs no budget.
     #[must_use]
     pub fn not(&self) -> Self {
-        Self {
-            support: self.support.clone(),
-            diagram: self.diagram.not(),
-        }
+        Self::over(self.support().to_vec(), self.diagram().not())
     }
 
     /// `self * other`
@@ -192,11 +206,11 @@ impl Function {
     /// The function with `atom` replaced by a constant: `g[Q:=0]`.
     #[must_use]
     pub fn restrict(&self, atom: AtomId, value: bool) -> Self {
-        match self.support.binary_search(&atom) {
+        match self.support().binary_search(&atom) {
             Err(_) => self.clone(),
             Ok(at) => {
-                let nodes = fixed(&self.diagram, BddVariable::from_index(at), value);
-                Self::of_listed(&self.support, nodes)
+                let nodes = fixed(self.diagram(), BddVariable::from_index(at), value);
+                Self::of_listed(self.support(), nodes)
             }
         }
     }
@@ -220,7 +234,7 @@ impl Function {
     /// The function with every atom but those of `keep` quantified away: what
     /// the function says about `keep` alone.
     pub fn project(&self, keep: &BTreeSet<AtomId>, budget: &Budget) -> Result<Self, Stop> {
-        let support = self.support.iter().copied();
+        let support = self.support().iter().copied();
         let (kept, away): (Vec<AtomId>, Vec<AtomId>) =
             support.partition(|atom| keep.contains(atom));
         if !away.is_empty() && kept.len() <= FEW_KEPT {
@@ -253,13 +267,13 @@ impl Function {
 
     /// The value where `value_of` says what each atom is.
     pub fn evaluate(&self, mut value_of: impl FnMut(AtomId) -> bool) -> bool {
-        let mut node = self.diagram.root_pointer();
+        let mut node = self.diagram().root_pointer();
         while !node.is_terminal() {
-            let variable = self.diagram.var_of(node).to_index();
-            node = if value_of(self.support[variable]) {
-                self.diagram.high_link_of(node)
+            let variable = self.diagram().var_of(node).to_index();
+            node = if value_of(self.support()[variable]) {
+                self.diagram().high_link_of(node)
             } else {
-                self.diagram.low_link_of(node)
+                self.diagram().low_link_of(node)
             };
         }
         node.is_one()
@@ -269,12 +283,12 @@ impl Function {
     /// what the paper's Algorithm 5 collects. High branches come first. There
     /// may be exponentially many; the caller bounds how many it takes.
     pub fn paths(&self) -> impl Iterator<Item = Vec<Literal>> + '_ {
-        self.diagram.sat_clauses().map(|clause| {
+        self.diagram().sat_clauses().map(|clause| {
             clause
                 .to_values()
                 .into_iter()
                 .map(|(variable, positive)| Literal {
-                    atom: self.support[variable.to_index()],
+                    atom: self.support()[variable.to_index()],
                     positive,
                 })
                 .collect()
@@ -288,7 +302,7 @@ impl Function {
         budget: &Budget,
     ) -> Result<Self, Stop> {
         budget.check()?;
-        let support = united(&self.support, &other.support);
+        let support = united(self.support(), other.support());
         if support.len() > MOST_VARIABLES {
             return Err(Stop::TooLarge);
         }
@@ -301,18 +315,18 @@ impl Function {
 
     /// The diagram over `support`, which holds every atom of this function's.
     fn lifted(&self, support: &[AtomId]) -> Bdd {
-        if self.support.len() == support.len() {
-            return self.diagram.clone();
+        if self.support().len() == support.len() {
+            return self.diagram().clone();
         }
         let mut place = 0;
-        let places = self.support.iter().map(|atom| {
+        let places = self.support().iter().map(|atom| {
             while support[place] != *atom {
                 place += 1;
             }
             place
         });
         let places: Vec<usize> = places.collect();
-        let mut nodes = self.diagram.clone().to_nodes();
+        let mut nodes = self.diagram().clone().to_nodes();
         renumber(&mut nodes, &places, support.len());
         checked(&nodes)
     }
@@ -325,10 +339,7 @@ impl Function {
             needed[diagram.var_of(BddPointer::from_index(at)).to_index()] = true;
         }
         if diagram.size() > 2 && needed.iter().all(|needed| *needed) {
-            return Self {
-                support: support.to_vec(),
-                diagram,
-            };
+            return Self::over(support.to_vec(), diagram);
         }
         Self::of_listed(support, diagram.to_nodes())
     }
@@ -351,10 +362,7 @@ impl Function {
             }
         }
         renumber(&mut nodes, &places, kept.len());
-        Self {
-            diagram: checked(&nodes),
-            support: kept,
-        }
+        Self::over(kept, checked(&nodes))
     }
 
     /// The function of the last of `nodes`: each its atom and where its low
@@ -376,10 +384,7 @@ impl Function {
                 BddPointer::from_index(high),
             )
         }));
-        Ok(Self {
-            diagram: checked(&listed),
-            support,
-        })
+        Ok(Self::over(support, checked(&listed)))
     }
 }
 

@@ -53,14 +53,14 @@ proptest! {
         let function = Function::of(&expr, &mut atoms, &budget).unwrap();
         let second = Function::of(&other, &mut atoms, &budget).unwrap();
         for row in 0..32 {
-            prop_assert_eq!(function.evaluate(|atom| row >> atom.0 & 1 == 1), value(&expr, row));
+            prop_assert_eq!(function.evaluate(|atom| row >> atoms.place(atom) & 1 == 1), value(&expr, row));
         }
         // Equal tables, equal values: the diagrams are canonical.
         prop_assert_eq!(function == second, table(&expr) == table(&other));
         // The support holds what matters and nothing else.
         for (at, _) in NAMES.iter().enumerate() {
             let matters = (0..32u32).any(|row| value(&expr, row) != value(&expr, row ^ (1 << at)));
-            prop_assert_eq!(function.depends_on(logic::AtomId(at as u32)), matters);
+            prop_assert_eq!(function.depends_on(atoms.at(at).unwrap()), matters);
         }
     }
 
@@ -73,12 +73,12 @@ proptest! {
         let (mut atoms, budget) = (atoms(), Budget::default());
         let function = Function::of(&expr, &mut atoms, &budget).unwrap();
         let mut leaf = |atom: &logic::Atom| match atoms.find(atom) {
-            Some(id) if id.0 as usize == at => Function::constant(value),
+            Some(id) if atoms.place(id) == at => Function::constant(value),
             Some(id) => Function::atom(id),
             None => Function::constant(false),
         };
         let written = Function::build(&expr, &mut leaf, &budget).unwrap();
-        let restricted = function.restrict(logic::AtomId(at as u32), value);
+        let restricted = function.restrict(atoms.at(at).unwrap(), value);
         prop_assert_eq!(&restricted, &written);
         // And what lies between a function and itself is that function.
         let between = written.simplified_within(&restricted, &budget).unwrap();
@@ -91,7 +91,7 @@ proptest! {
         let function = Function::of(&expr, &mut atoms, &budget).unwrap();
         let products = function.products(&budget).unwrap();
         let holds = |product: &logic::Product, row: u32| {
-            product.iter().all(|l| (row >> l.atom.0 & 1 == 1) == l.positive)
+            product.iter().all(|l| (row >> atoms.place(l.atom) & 1 == 1) == l.positive)
         };
         let covers = |products: &[&logic::Product], row| products.iter().any(|p| holds(p, row));
         let all: Vec<_> = products.iter().collect();
@@ -129,13 +129,13 @@ proptest! {
         let (mut atoms, budget) = (atoms(), Budget::default());
         let function = Function::of(&expr, &mut atoms, &budget).unwrap();
         let other = Function::of(&by, &mut atoms, &budget).unwrap();
-        let atom = logic::AtomId(at);
+        let atom = atoms.at(at as usize).unwrap();
         let bit = |row: u32, value: bool| if value { row | 1 << at } else { row & !(1 << at) };
         let restricted = function.restrict(atom, true);
         let substituted = function.substitute(atom, &other, &budget).unwrap();
         let quantified = function.exists(atom, &budget).unwrap();
         for row in 0..32 {
-            let values = |atom: logic::AtomId| row >> atom.0 & 1 == 1;
+            let values = |atom: logic::AtomId| row >> atoms.place(atom) & 1 == 1;
             prop_assert_eq!(restricted.evaluate(values), value(&expr, bit(row, true)));
             prop_assert_eq!(substituted.evaluate(values), value(&expr, bit(row, value(&by, row))));
             prop_assert_eq!(quantified.evaluate(values), value(&expr, bit(row, true)) || value(&expr, bit(row, false)));
@@ -210,7 +210,7 @@ fn a_problem_says_what_was_expected_and_what_stands_there() {
 /// `a0*b0 + a1*b1 + ...` with all of the `a` before all of the `b`: the worst
 /// order, in which the diagram doubles with every pair.
 fn pairs(count: u32, budget: &Budget) -> Function {
-    let atom = |at| Function::atom(logic::AtomId(at));
+    let atom = |at| Function::atom(logic::AtomId(u64::from(at)));
     (0..count).fold(Function::constant(false), |sum, at| {
         let pair = atom(at).and(&atom(count + at), budget).unwrap();
         sum.or(&pair, budget).unwrap()

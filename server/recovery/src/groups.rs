@@ -6,7 +6,7 @@
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
-use logic::{Atom, AtomId, Name};
+use logic::{Atom, AtomId, Atoms, Name};
 use petgraph::Direction;
 use petgraph::algo::kosaraju_scc;
 use petgraph::graph::{DiGraph, NodeIndex};
@@ -199,30 +199,30 @@ fn mode_sets(graph: &DiGraph<(), ()>) -> Vec<Vec<NodeIndex>> {
 }
 
 /// Classes of atoms and registers that depend on each other.
-struct Classes {
+struct Classes<'c> {
     union: UnionFind<usize>,
-    atoms: usize,
+    atoms: &'c Atoms,
 }
 
-impl Classes {
+impl Classes<'_> {
     fn join(&mut self, a: AtomId, b: AtomId) {
-        self.union.union(a.0 as usize, b.0 as usize);
+        self.union.union(self.atoms.place(a), self.atoms.place(b));
     }
 
     fn class(&mut self, atom: AtomId) -> usize {
-        self.union.find_mut(atom.0 as usize)
+        self.union.find_mut(self.atoms.place(atom))
     }
 
     fn register_class(&mut self, register: usize) -> usize {
-        self.union.find_mut(self.atoms + register)
+        self.union.find_mut(self.atoms.len() + register)
     }
 }
 
 /// Joins what a coil writes with the written variables that it reads. Inputs
 /// join nothing: a stop button does not make two machines one.
-fn dependent(conditions: &Conditions, registers: &[Register]) -> Classes {
-    let atoms = conditions.atoms.len();
-    let mut union = UnionFind::new(atoms + registers.len());
+fn dependent<'c>(conditions: &'c Conditions, registers: &[Register]) -> Classes<'c> {
+    let atoms = &conditions.atoms;
+    let mut union = UnionFind::new(atoms.len() + registers.len());
     let place: HashMap<&Name, usize> = registers
         .iter()
         .enumerate()
@@ -230,27 +230,27 @@ fn dependent(conditions: &Conditions, registers: &[Register]) -> Classes {
         .collect();
     let mut join = |to: usize, atom: AtomId| {
         if conditions.variable(atom).is_some() {
-            union.union(to, atom.0 as usize);
+            union.union(to, atoms.place(atom));
         }
         if let Some(timer) = conditions.timers.get(&atom)
             && let Ok(input) = &timer.input
         {
             for read in input.support() {
                 if conditions.variable(*read).is_some() {
-                    union.union(to, read.0 as usize);
+                    union.union(to, atoms.place(*read));
                 }
             }
         }
         if let Atom::Comparison(comparison) = conditions.atoms.atom(atom)
             && let Some(register) = place.get(&comparison.left)
         {
-            union.union(to, atoms + register);
+            union.union(to, atoms.len() + register);
         }
     };
     for variable in &conditions.variables {
         let Ok(next) = &variable.next else { continue };
         for atom in next.support() {
-            join(variable.atom.0 as usize, *atom);
+            join(atoms.place(variable.atom), *atom);
         }
     }
     for write in &conditions.register_writes {
@@ -259,7 +259,7 @@ fn dependent(conditions: &Conditions, registers: &[Register]) -> Classes {
         };
         let Ok(guard) = &write.guard else { continue };
         for atom in guard.support() {
-            join(atoms + register, *atom);
+            join(atoms.len() + register, *atom);
         }
     }
     Classes { union, atoms }

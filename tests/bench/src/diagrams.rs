@@ -59,7 +59,7 @@ impl Library for Own {
     }
 
     fn variable(&self, number: u32) -> Option<Function> {
-        Some(Function::atom(AtomId(number)))
+        Some(Function::atom(AtomId(number.into())))
     }
 
     fn not(&self, a: &Function) -> Option<Function> {

@@ -130,7 +130,7 @@ pub fn agree(own: &Function, peer: &BDDFunction) -> bool {
     };
     let under = |valuation: &dyn Fn(AtomId) -> bool| {
         let support = own.support().iter();
-        peer.eval(support.map(|atom| (atom.0, valuation(*atom))))
+        peer.eval(support.map(|atom| (number(*atom), valuation(*atom))))
     };
     let random = |seed| {
         let valuation = |atom| value(seed, atom);
@@ -147,6 +147,11 @@ pub fn agree(own: &Function, peer: &BDDFunction) -> bool {
 }
 
 /// The value of an atom on a path, which leaves some open.
+/// The number under which the peer knows an atom.
+fn number(atom: AtomId) -> u32 {
+    u32::try_from(atom.0).unwrap_or(u32::MAX)
+}
+
 fn on(path: &[Literal], seed: u64, atom: AtomId) -> bool {
     let literal = path.iter().find(|literal| literal.atom == atom);
     literal.map_or_else(|| value(seed, atom), |literal| literal.positive)
@@ -154,7 +159,7 @@ fn on(path: &[Literal], seed: u64, atom: AtomId) -> bool {
 
 /// The value of an atom under a random valuation, the same on every run.
 fn value(seed: u64, atom: AtomId) -> bool {
-    mixed(mixed(seed) ^ u64::from(atom.0)) >> 63 == 1
+    mixed(mixed(seed) ^ atom.0) >> 63 == 1
 }
 
 /// A step of SplitMix64: each bit of the state decides about half of the bits.

@@ -17,16 +17,16 @@ impl Function {
     /// little more time than there are nodes; at worst the cube of that.
     pub fn literals(&self) -> Vec<Literal> {
         // Of each atom: whether its complement is a literal, whether itself is.
-        let mut found = vec![[false; 2]; self.support.len()];
-        let mut implications = Implications::of(&self.diagram);
-        for node in self.diagram.pointers().skip(2) {
-            let [falls, rises] = &mut found[self.diagram.var_of(node).to_index()];
-            let low = self.diagram.low_link_of(node);
-            let high = self.diagram.high_link_of(node);
+        let mut found = vec![[false; 2]; self.support().len()];
+        let mut implications = Implications::of(self.diagram());
+        for node in self.diagram().pointers().skip(2) {
+            let [falls, rises] = &mut found[self.diagram().var_of(node).to_index()];
+            let low = self.diagram().low_link_of(node);
+            let high = self.diagram().high_link_of(node);
             *falls = *falls || !implications.hold(low, high);
             *rises = *rises || !implications.hold(high, low);
         }
-        let literals = self.support.iter().zip(found).flat_map(|(atom, found)| {
+        let literals = self.support().iter().zip(found).flat_map(|(atom, found)| {
             let of_atom = [false, true].map(|positive| Literal {
                 atom: *atom,
                 positive,

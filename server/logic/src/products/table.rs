@@ -50,7 +50,7 @@ pub(super) enum Operation {
 const NODES_PER_NODE: usize = 16;
 
 /// Comes after every atom of a program: there is none at a constant.
-const NO_ATOM: AtomId = AtomId(u32::MAX);
+const NO_ATOM: AtomId = AtomId(u64::MAX);
 
 impl<'b> Table<'b> {
     /// A table of the two constants.
@@ -76,14 +76,14 @@ impl<'b> Table<'b> {
 
     /// Puts a function into the table.
     pub(super) fn add(&mut self, function: &Function) -> Part {
-        let diagram = &function.diagram;
+        let diagram = function.diagram();
         let mut parts = vec![Part::FALSE, Part::TRUE];
         // Every diagram lists its nodes after those that they lead to.
         for at in 2..diagram.size() {
             let node = BddPointer::from_index(at);
             let part = |to: BddPointer| parts[to.to_index()];
             let node = Node {
-                atom: function.support[diagram.var_of(node).to_index()],
+                atom: function.support()[diagram.var_of(node).to_index()],
                 low: part(diagram.low_link_of(node)),
                 high: part(diagram.high_link_of(node)),
             };

@@ -41,9 +41,9 @@ pub(super) fn declare(analysis: &Analysis, grafcet: &mut Grafcet) {
         },
     };
     let mut places: BTreeMap<Name, usize> = BTreeMap::new();
-    for (id, atom) in analysis.conditions.atoms.iter() {
+    for (at, (_, atom)) in analysis.conditions.atoms.iter().enumerate() {
         if let Atom::Variable(name) = atom {
-            places.insert(name.clone(), id.0 as usize);
+            places.insert(name.clone(), at);
         }
     }
     let place = |name: &Name| {

@@ -138,7 +138,7 @@ impl<'n> Judged<'n> {
             let interpreted = [seen.at(at), seen.after(at)];
             for ((place, function), interpreted) in self.functions(at).iter().zip(interpreted) {
                 let Ok(function) = function else { continue };
-                let computed = function.evaluate(|atom| values[atom.0 as usize]);
+                let computed = function.evaluate(|atom| values[self.atoms.place(atom)]);
                 assert_eq!(
                     computed,
                     interpreted,
@@ -155,13 +155,13 @@ impl<'n> Judged<'n> {
     fn bits(&self, values: &[bool]) -> Option<BTreeMap<&Name, bool>> {
         let mut bits = BTreeMap::new();
         for memory in &self.memories {
-            let says = values[memory.atom.0 as usize];
+            let says = values[self.atoms.place(memory.atom)];
             let bit = match memory.edge {
                 Edge::Rising => !says,
                 Edge::Falling => says,
             };
             let elsewhere = self.atoms.find_variable(&memory.bit);
-            let looked_at = elsewhere.is_none_or(|atom| values[atom.0 as usize] == bit);
+            let looked_at = elsewhere.is_none_or(|atom| values[self.atoms.place(atom)] == bit);
             if !looked_at || *bits.entry(&memory.bit).or_insert(bit) != bit {
                 return None;
             }
@@ -171,7 +171,7 @@ impl<'n> Judged<'n> {
 
     fn value(&self, atom: &Atom, bits: &BTreeMap<&Name, bool>, values: &[bool]) -> bool {
         if let Some(id) = self.atoms.find(atom) {
-            return values[id.0 as usize];
+            return values[self.atoms.place(id)];
         }
         let Atom::Variable(name) = atom else {
             panic!("the conditions do not know {atom}");
@@ -188,7 +188,7 @@ impl<'n> Judged<'n> {
         let literals: Vec<String> = self
             .atoms
             .iter()
-            .map(|(id, atom)| format!("{}{atom}", if values[id.0 as usize] { "" } else { "/" }))
+            .map(|(id, atom)| format!("{}{atom}", if values[self.atoms.place(id)] { "" } else { "/" }))
             .collect();
         literals.join(" ")
     }
