@@ -207,7 +207,7 @@ fn writes<'a>(
             rung,
             guard: guard.and_then(|guard| words.say(guard)),
             solved: solved.and_then(|solved| words.say(&solved)),
-            span: write.span,
+            span: write.place.span(&analysis.program),
         });
     }
     drawn.sort_by_key(|write| write.span);

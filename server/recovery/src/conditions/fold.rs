@@ -1,24 +1,64 @@
 //! From the writes of a variable to its next value.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use ladder::CoilKind;
 use logic::{Atom, AtomId, Budget, Function, Stop};
 
-use super::{Variable, Walk, Write, WriteKind};
+use super::{Conditions, Variable, Walk, Write, WriteKind};
 
 /// One variable for every target of `writes`, which stand in the order of the
-/// scan.
-pub(super) fn variables(writes: Vec<Write>, walk: &mut Walk<'_>) -> Vec<Variable> {
+/// scan, and how many of them were folded. Those whose writes are what they
+/// were in `earlier` are kept.
+pub(super) fn variables(
+    writes: Vec<Write>,
+    earlier: Option<&Conditions>,
+    walk: &mut Walk<'_>,
+) -> (Vec<Arc<Variable>>, usize) {
     let mut by_target: BTreeMap<AtomId, Vec<Write>> = BTreeMap::new();
     for write in writes {
         by_target.entry(write.target).or_default().push(write);
     }
-    by_target
+    let mut folded = 0;
+    let written = by_target
         .into_iter()
-        .filter(|(_, writes)| writes.iter().any(is_coil_or_copy))
-        .map(|(atom, writes)| variable(atom, writes, walk))
-        .collect()
+        .filter(|(_, writes)| writes.iter().any(is_coil_or_copy));
+    let variables = written.map(|(atom, writes)| {
+        let was = earlier.and_then(|earlier| earlier.kept(atom));
+        match was.and_then(|was| kept(was, &writes)) {
+            Some(kept) => kept,
+            None => {
+                folded += 1;
+                variable(atom, writes, walk).into()
+            }
+        }
+    });
+    (variables.collect(), folded)
+}
+
+/// The variable as it was, if it is written as it was, though perhaps in rungs
+/// that have moved.
+fn kept(was: &Arc<Variable>, writes: &[Write]) -> Option<Arc<Variable>> {
+    if was.writes == writes {
+        return Some(Arc::clone(was));
+    }
+    // Which writes share a rung matters, and so does nothing else of a place.
+    let alike = was.writes.len() == writes.len()
+        && was.writes.iter().zip(writes).all(|(was, is)| is.moved_to(was.place) == *was)
+        && stretches(&was.writes) == stretches(writes);
+    alike.then(|| {
+        Arc::new(Variable {
+            writes: writes.to_vec(),
+            ..(**was).clone()
+        })
+    })
+}
+
+/// How many writes follow each other in one rung, rung by rung.
+fn stretches(writes: &[Write]) -> Vec<usize> {
+    let same = |a: &Write, b: &Write| a.place.rung() == b.place.rung();
+    writes.chunk_by(same).map(<[Write]>::len).collect()
 }
 
 /// A word that is only moved about has no conditions of its own; its bits do
@@ -76,7 +116,7 @@ fn next_value(
     let mut before_rung = value.clone();
     let mut rung = None;
     for write in writes {
-        let here = (write.place.routine, write.place.rung);
+        let here = write.place.rung();
         if rung != Some(here) {
             rung = Some(here);
             before_rung = value.clone();

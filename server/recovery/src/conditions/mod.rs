@@ -20,17 +20,22 @@
 mod fold;
 mod naming;
 mod power;
+mod rung;
+mod sequence;
 mod solving;
 mod timers;
+mod visits;
 mod writes;
 
 use std::collections::{HashMap, HashSet};
+use std::sync::Arc;
 
-use ladder::Program;
+use ladder::{Program, flow};
 use logic::{AtomId, Atoms, Budget, Expr, Function, Name, Stop};
 
-pub use naming::ordered_atoms;
 pub use power::{Powers, Walk, powers};
+use rustc_hash::FxHashMap;
+use sequence::{Earlier, Rungs, Solution};
 pub use timers::TimerLaw;
 pub use writes::{Place, RegisterWrite, Write, WriteKind};
 
@@ -40,14 +45,28 @@ pub struct Conditions {
     /// Every atom that occurs: coils first, then inputs, then the rest.
     pub atoms: Atoms,
     /// Variables that a coil writes, in the order of their atoms.
-    pub variables: Vec<Variable>,
+    pub variables: Vec<Arc<Variable>>,
     /// Atoms that stand for what an unknown box does.
     pub opaque: HashSet<AtomId>,
     /// Laws of timers, by the atom of their output.
     pub timers: HashMap<AtomId, TimerLaw>,
     /// Writes of whole numbers, in the order of the scan.
     pub register_writes: Vec<RegisterWrite>,
-    places: HashMap<AtomId, usize>,
+    /// What was computed anew.
+    pub work: Work,
+    places: FxHashMap<AtomId, usize>,
+    rungs: Rungs,
+    /// What each operation was allowed, if nobody ended the work early.
+    allowed: Option<[usize; 2]>,
+}
+
+/// What of a program was computed, and not kept from before a change.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Work {
+    /// Rungs whose power flow was turned into conditions.
+    pub rungs: usize,
+    /// Variables whose writes were folded into a next value.
+    pub variables: usize,
 }
 
 /// A variable that coils write, and its conditions.
@@ -104,6 +123,11 @@ impl Variable {
 impl Conditions {
     /// The variable that `atom` is, if coils write it.
     pub fn variable(&self, atom: AtomId) -> Option<&Variable> {
+        self.places.get(&atom).map(|&at| &*self.variables[at])
+    }
+
+    /// The variable that `atom` is, to be kept.
+    fn kept(&self, atom: AtomId) -> Option<&Arc<Variable>> {
         self.places.get(&atom).map(|&at| &self.variables[at])
     }
 
@@ -126,16 +150,42 @@ impl Conditions {
 
 /// The conditions of every coil of `program`, each operation within `budget`.
 pub fn conditions(program: &Program, budget: &Budget) -> Conditions {
-    let mut atoms = ordered_atoms(program);
+    computed(program, None, budget)
+}
+
+/// The same after a change: what `earlier`, the conditions of the program
+/// `before`, says of unchanged rungs, and of what they alone decide, is kept.
+/// The answer is that of [`conditions`], but for the numbers of atoms.
+pub fn conditions_after(
+    before: &Program,
+    earlier: &Conditions,
+    program: &Program,
+    budget: &Budget,
+) -> Conditions {
+    let earlier = (earlier.allowed == Some(allowed(budget))).then_some(Earlier {
+        program: before,
+        conditions: earlier,
+    });
+    computed(program, earlier, budget)
+}
+
+fn computed(program: &Program, earlier: Option<Earlier<'_>>, budget: &Budget) -> Conditions {
+    let execution = flow::execution(program);
+    let Solution {
+        rungs,
+        mut atoms,
+        anew,
+    } = sequence::solve_all(program, &execution, earlier, budget);
     let mut opaque = HashSet::new();
     let mut walk = Walk {
         atoms: &mut atoms,
         opaque: &mut opaque,
         budget,
     };
-    let found = writes::collect(program, &mut walk);
-    let mut variables: Vec<Variable> = fold::variables(found.writes, &mut walk);
-    variables.sort_by_key(|variable| variable.atom);
+    let happening = visits::happening(program, &execution, &rungs, &mut walk);
+    let (writes, register_writes) = writes::writes(&happening.occurrences, program, &mut walk);
+    let was = earlier.map(|earlier| earlier.conditions);
+    let (variables, folded) = fold::variables(writes, was, &mut walk);
     let places = variables
         .iter()
         .enumerate()
@@ -143,10 +193,20 @@ pub fn conditions(program: &Program, budget: &Budget) -> Conditions {
         .collect();
     Conditions {
         variables,
-        timers: found.timers,
-        register_writes: found.register_writes,
+        timers: happening.timers,
+        register_writes,
         opaque,
         places,
         atoms,
+        work: Work {
+            rungs: anew,
+            variables: folded,
+        },
+        rungs,
+        allowed: (!budget.cancel.is_cancelled()).then(|| allowed(budget)),
     }
+}
+
+fn allowed(budget: &Budget) -> [usize; 2] {
+    [budget.nodes, budget.products]
 }

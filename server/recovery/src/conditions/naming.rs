@@ -7,13 +7,13 @@ use std::cmp::Ordering;
 use std::collections::{HashMap, HashSet};
 
 use ladder::{Declarations, ElementKind, Program};
-use logic::{Atoms, Name};
+use logic::{Atom, Name};
 
-/// A table of the Boolean variables of `program`: what it writes first, in
+/// The Boolean variables of `program`, each once: what it writes first, in
 /// the order of addresses, or of rungs where an address is missing; then what
 /// it only reads, in the order of addresses, or of declarations and first
 /// reading where one is missing.
-pub fn ordered_atoms(program: &Program) -> Atoms {
+pub(super) fn order(program: &Program) -> Vec<Atom> {
     let mut written = Vec::new();
     let mut read = Vec::new();
     let mut seen = HashSet::new();
@@ -35,18 +35,13 @@ pub fn ordered_atoms(program: &Program) -> Atoms {
             }
         }
     }
-    let mut atoms = Atoms::new();
     let mut place = HashMap::new();
     for (at, declaration) in program.declarations.iter().enumerate() {
         place.entry(declaration.name.clone()).or_insert(at);
     }
     read.sort_by_key(|name| place.get(name).copied().unwrap_or(usize::MAX));
-    for names in [written, read] {
-        for name in by_address(names, &program.declarations) {
-            atoms.add_variable(&name);
-        }
-    }
-    atoms
+    let names = [written, read].map(|names| by_address(names, &program.declarations));
+    names.into_iter().flatten().map(Atom::Variable).collect()
 }
 
 /// `names` in the order of their addresses, or as they are if any has none.

@@ -2,20 +2,17 @@
 
 use std::collections::{BTreeSet, HashMap};
 
-use ladder::{ElementKind, Network, Rung};
+use ladder::{ElementKind, Network};
 use logic::{AtomId, Function, Stop};
 use petgraph::graph::NodeIndex;
 
 use super::fold;
 use super::power::Seen;
-use super::writes::{Effect, Event};
+use super::rung::{Effect, Event};
 use super::{Powers, Walk, WriteKind, powers};
 
-/// A rung while it is solved, in one stretch or several.
-pub(super) struct Solving<'p> {
-    /// The routine, and the rung in it.
-    pub(super) place: (usize, usize),
-    pub(super) rung: &'p Rung,
+/// A rung while it is solved.
+pub(super) struct Solving {
     pub(super) powers: Powers,
     /// Variables that several of its coils write, and what has been written
     /// so far.
@@ -26,14 +23,17 @@ pub(super) struct Solving<'p> {
 /// value before the rung.
 type Written = (NodeIndex, Result<Function, Stop>);
 
-impl<'p> Solving<'p> {
-    pub(super) fn new(place: (usize, usize), rung: &'p Rung, walk: &mut Walk<'_>) -> Self {
+impl Solving {
+    pub(super) fn new(network: &Network, walk: &mut Walk<'_>) -> Self {
         Self {
-            place,
-            rung,
-            powers: powers(&rung.network, walk),
-            rewritten: rewritten(&rung.network, walk),
+            powers: powers(network, walk),
+            rewritten: rewritten(network, walk),
         }
+    }
+
+    /// Whether several coils of the rung write the same variable.
+    pub(super) fn rewrites(&self) -> bool {
+        !self.rewritten.is_empty()
     }
 
     /// What the contacts at `places` see of `target` where an earlier coil has
@@ -47,8 +47,9 @@ impl<'p> Solving<'p> {
         contacts.iter().copied().filter_map(last_before).collect()
     }
 
-    /// Takes down what a coil has written.
-    pub(super) fn add(&mut self, event: &Event, walk: &Walk<'_>) {
+    /// Takes down what a coil has written, in a zone that is on under the
+    /// condition `zone`.
+    pub(super) fn add(&mut self, event: &Event, zone: &Result<Function, Stop>, walk: &Walk<'_>) {
         let Effect::Coil(target, kind) = event.effect else {
             return;
         };
@@ -58,11 +59,11 @@ impl<'p> Solving<'p> {
         let before = writes.last().map(|(_, value)| value.clone());
         let before = before.unwrap_or(Ok(Function::atom(target)));
         let guard = event.effective.as_ref().unwrap_or(&event.guard).clone();
-        let zone = event.zone.clone();
+        let zone = zone.clone();
         let kind = WriteKind::Coil(kind);
         let value =
             before.and_then(|before| fold::apply(&kind, &guard?, &zone?, &before, walk.budget));
-        writes.push((NodeIndex::new(event.place.element), value));
+        writes.push((NodeIndex::new(event.element), value));
     }
 }
 

@@ -24,6 +24,7 @@ pub(super) fn own_variables(analysis: &Analysis) -> impl Iterator<Item = &Variab
         .conditions
         .variables
         .iter()
+        .map(|variable| &**variable)
         .filter(move |variable| all_defined || !analysis.is_in_definition(variable))
 }
 

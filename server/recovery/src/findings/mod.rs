@@ -69,7 +69,7 @@ impl Subject<'_> {
         match self.element(write.place).map(|element| &element.kind) {
             Some(ElementKind::Coil(coil)) => coil.operand.span,
             Some(ElementKind::Assign(assignment)) => assignment.target.span,
-            _ => write.span,
+            _ => write.place.span(self.program),
         }
     }
 

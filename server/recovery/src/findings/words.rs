@@ -23,7 +23,7 @@ pub(super) fn find(subject: &Subject<'_>) -> Vec<Diagnostic> {
                     subject.rung_name(whole.place)
                 ),
             )
-            .related(whole.span, "writes the whole word"),
+            .related(whole.place.span(subject.program), "writes the whole word"),
         );
     }
     found

@@ -122,6 +122,7 @@ pub fn states(conditions: &Conditions, budget: &Budget) -> States {
     let candidates: Vec<&Variable> = conditions
         .variables
         .iter()
+        .map(|variable| &**variable)
         .filter(|variable| holds_state(variable, conditions, budget))
         .collect();
     let atoms: BTreeSet<AtomId> = candidates.iter().map(|variable| variable.atom).collect();

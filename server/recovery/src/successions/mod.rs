@@ -12,6 +12,8 @@ mod kind;
 mod possible;
 mod shared;
 
+use std::sync::Arc;
+
 use logic::{AtomId, Budget, Function, Name};
 
 pub use cubes::cubes;
@@ -123,7 +125,7 @@ pub fn ranked(
 /// deactivation: what the paper's rule compares, whether the coil holds a
 /// state or not.
 fn coils(conditions: &Conditions) -> Vec<(AtomId, Function, Function)> {
-    let coil = |variable: &Variable| {
+    let coil = |variable: &Arc<Variable>| {
         let activation = variable.next.clone().ok()?;
         Some((variable.atom, activation, variable.deactivation().ok()?))
     };
