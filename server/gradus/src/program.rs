@@ -92,6 +92,8 @@ fn trouble(name: &str, errors: usize, paint: Paint) -> String {
 pub fn analyse(ladder: &Ladder, budget: &Budget) -> Option<Analysis> {
     let _progress = progress("Analysing", ladder);
     let analysis = recovery::analyse(&ladder.program, budget);
+    // The states too, while the line moves.
+    analysis.groups();
     (!budget.cancel.is_cancelled()).then_some(analysis)
 }
 

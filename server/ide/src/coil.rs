@@ -106,7 +106,7 @@ pub fn coil<'a>(variable: &'a Variable, analysis: &'a Analysis, budget: &Budget)
     let declared = analysis.program.declarations.find(&variable.name);
     let next = variable.next.as_ref().ok();
     let resolved = next.and_then(|next| {
-        let auxiliaries = &analysis.states.auxiliaries;
+        let auxiliaries = &analysis.states().auxiliaries;
         let resolved = auxiliaries.resolve(next, conditions, budget);
         (resolved != *next).then(|| four(&resolved, variable.atom, &mut words))?
     });
@@ -140,9 +140,9 @@ fn four(next: &Function, atom: AtomId, words: &mut Words<'_>) -> Option<Said> {
 
 fn part(variable: &Variable, analysis: &Analysis, budget: &Budget) -> Part {
     let atom = variable.atom;
-    if analysis.states.state(atom).is_some() {
+    if analysis.states().state(atom).is_some() {
         Part::State
-    } else if analysis.states.stored.iter().any(|it| it.atom == atom) {
+    } else if analysis.states().stored.iter().any(|it| it.atom == atom) {
         Part::Repeats
     } else if variable.next.is_err() {
         Part::TooLarge
@@ -152,7 +152,7 @@ fn part(variable: &Variable, analysis: &Analysis, budget: &Budget) -> Part {
         Part::Keeps
     } else if variable.falls_in_itself(budget) {
         Part::Oscillates
-    } else if analysis.states.auxiliaries.contains(atom) {
+    } else if analysis.states().auxiliaries.contains(atom) {
         Part::Auxiliary
     } else {
         Part::Follows
@@ -162,7 +162,7 @@ fn part(variable: &Variable, analysis: &Analysis, budget: &Budget) -> Part {
 fn interlocks(variable: &Variable, analysis: &Analysis) -> Vec<Name> {
     let closed = variable.closed_contacts.iter();
     closed
-        .filter_map(|atom| analysis.states.state(*atom))
+        .filter_map(|atom| analysis.states().state(*atom))
         .map(|state| state.name.clone())
         .collect()
 }

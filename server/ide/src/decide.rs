@@ -76,7 +76,7 @@ pub fn reject(decisions: &mut Vec<Decision>, from: &Name, to: &Name) {
 /// depend on each other they take the place of those decided before.
 pub fn start_in(states: &[Name], analysis: &Analysis, decisions: &mut Vec<Decision>) {
     let group_of = |name: &Name| {
-        let mut groups = analysis.groups.iter();
+        let mut groups = analysis.groups().iter();
         groups.position(|group| group.states.contains(name))
     };
     let groups: Vec<_> = states.iter().map(group_of).collect();

@@ -85,7 +85,7 @@ fn of_state(pair: Pair<'_>, name: &Name, direction: Direction, budget: &Budget) 
     let Some(ladder) = pair.ladder else {
         return Vec::new();
     };
-    let all = &ladder.analysis.successions;
+    let all = &ladder.analysis.successions();
     let mut found = accepted(pair.spec, name, direction);
     for (_, detail, (from, to)) in &mut found {
         let known = all.iter().find(|it| it.from == *from && it.to == *to);
@@ -157,9 +157,9 @@ fn accepted(spec: Option<&Spec>, name: &Name, direction: Direction) -> Found {
 
 /// A state with its coil; of a step register's value, with what writes it.
 fn state(ladder: &Ladder, name: &Name, detail: Option<String>) -> Option<Item> {
-    let at = match ladder.analysis.states.find(name) {
+    let at = match ladder.analysis.states().find(name) {
         Some(_) => {
-            let mut mentions = ladder.names.of(name);
+            let mut mentions = ladder.names().of(name);
             let coil = mentions.find(|it| it.usage == Usage::Written)?;
             let element = crate::element(ladder.program(), coil.place?)?;
             Target::new(Side::Ladder, element.span, coil.span)
@@ -190,7 +190,7 @@ fn value(ladder: &Ladder, state: &Name) -> Option<Target> {
         .and_then(|arc| arc.written_at.first());
     let span = match written {
         Some((_, span)) => *span,
-        None => ladder.names.of(&register.name).next()?.span,
+        None => ladder.names().of(&register.name).next()?.span,
     };
     Some(Target::new(Side::Ladder, span, span))
 }

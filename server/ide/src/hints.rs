@@ -37,12 +37,12 @@ pub fn hints_in_ladder(ladder: &Ladder, span: Span, budget: &Budget) -> Vec<Hint
         let mut locks: HashSet<Name> = HashSet::new();
         for (_, element) in rung.network.elements() {
             if let ElementKind::Coil(coil) = &element.kind
-                && let Some(state) = analysis.states.find(&coil.operand.name)
+                && let Some(state) = analysis.states().find(&coil.operand.name)
             {
                 let names = state
                     .interlocks
                     .iter()
-                    .filter_map(|it| analysis.states.state(*it));
+                    .filter_map(|it| analysis.states().state(*it));
                 locks.extend(names.map(|it| it.name.clone()));
             }
         }
@@ -82,7 +82,7 @@ fn of_coil(
     span: Span,
     budget: &Budget,
 ) -> Option<Hint> {
-    let state = ladder.analysis.states.find(&variable.name)?;
+    let state = ladder.analysis.states().find(&variable.name)?;
     let conditions: &Conditions = &ladder.analysis.conditions;
     let said = |function: &logic::Function| {
         legible(function, conditions, budget).filter(|it| it.len() <= LONGEST)

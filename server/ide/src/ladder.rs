@@ -1,11 +1,11 @@
 use std::collections::HashSet;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use ::ladder::{Format, Program, Reading, Routine, Rung};
 use logic::{Budget, Function, Name};
 use petgraph::graph::NodeIndex;
 use recovery::conditions::{Place, Walk, powers};
-use recovery::{Analysis, analyse};
+use recovery::{Analysis, analyse, analyse_after};
 use source::Diagnostic;
 
 use crate::Names;
@@ -20,24 +20,43 @@ pub struct Ladder {
     pub diagnostics: Vec<Diagnostic>,
     /// What was recovered; it holds the program too.
     pub analysis: Analysis,
-    /// Where its names stand.
-    pub names: Names,
+    names: OnceLock<Names>,
 }
 
 impl Ladder {
     /// Reads and analyses `text`, whatever it holds. When `budget` is cancelled
     /// the answer comes early and is not complete.
     pub fn read(text: Arc<str>, budget: &Budget) -> Self {
+        Self::following(None, text, budget)
+    }
+
+    /// The same, where the ladder was `before` until somebody edited it: what
+    /// the edit does not touch is kept.
+    pub fn following(before: Option<&Self>, text: Arc<str>, budget: &Budget) -> Self {
         let Reading {
             program,
             diagnostics,
         } = ::ladder::read(text.as_bytes());
         Self {
-            names: Names::new(&program, &text),
-            analysis: analyse(&program, budget),
+            names: OnceLock::new(),
+            analysis: match before {
+                Some(before) => analyse_after(&before.analysis, &program, budget),
+                None => analyse(&program, budget),
+            },
             text,
             diagnostics,
         }
+    }
+
+    /// Where its names stand.
+    pub fn names(&self) -> &Names {
+        self.names
+            .get_or_init(|| Names::new(self.program(), &self.text))
+    }
+
+    /// Whether everything was worked out to its end.
+    pub fn is_whole(&self) -> bool {
+        self.analysis.is_whole()
     }
 
     /// The program.

@@ -71,7 +71,7 @@ fn counts<'l>(
 ) -> HashMap<&'l Name, Count> {
     let decided = spec.map(Decided::of).unwrap_or_default();
     let mut counts: HashMap<&Name, Count> = HashMap::new();
-    for succession in &ladder.analysis.successions {
+    for succession in ladder.analysis.successions() {
         let standing = decided.standing(&succession.from, &succession.to);
         let count = counts.entry(&succession.from).or_default();
         count.add(standing, succession.evidence, weakest);

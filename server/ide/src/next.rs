@@ -160,7 +160,7 @@ pub(crate) fn followers<'l>(
     decided: &'l Decided,
     weakest: Evidence,
 ) -> impl Iterator<Item = &'l Succession> {
-    let all = ladder.analysis.successions.iter();
+    let all = ladder.analysis.successions().iter();
     all.filter(move |it| {
         it.evidence != Evidence::Written
             && it.evidence <= weakest

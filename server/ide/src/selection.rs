@@ -11,8 +11,8 @@ use crate::{Ladder, Spec};
 pub fn selections_in_ladder(ladder: &Ladder, offset: usize) -> Vec<Span> {
     let mut spans = vec![Span::new(0, ladder.text.len())];
     let program = ladder.program();
-    spans.extend(ladder.names.at(offset).map(|it| it.span));
-    if let Some(place) = ladder.names.element_at(offset)
+    spans.extend(ladder.names().at(offset).map(|it| it.span));
+    if let Some(place) = ladder.names().element_at(offset)
         && let Some(element) = crate::element(program, place)
     {
         spans.push(element.span);

@@ -153,7 +153,7 @@ impl Mark {
 pub fn tokens_in_ladder(ladder: &Ladder) -> Vec<Token> {
     let opaque = opaque(ladder);
     let mut tokens: Vec<Token> = Vec::new();
-    let mentions = ladder.names.all().iter();
+    let mentions = ladder.names().all().iter();
     tokens.extend(mentions.filter_map(|it| of_mention(ladder, it, &opaque)));
     for routine in &ladder.program().routines {
         tokens.extend(ladder.routine_name(routine).map(|span| {
@@ -204,7 +204,7 @@ fn opaque(ladder: &Ladder) -> HashSet<&Name> {
         let mut writes = variable.writes.iter();
         writes.any(|it| matches!(it.kind, WriteKind::Unknown(_)))
     });
-    let mentions = ladder.names.all().iter();
+    let mentions = ladder.names().all().iter();
     let by_boxes = mentions.filter(|mention| {
         let element = mention
             .place
@@ -249,7 +249,7 @@ fn of_mention(ladder: &Ladder, mention: &Mention, opaque: &HashSet<&Name>) -> Op
     if declared.is_some_and(|it| it.class == Class::Constant) {
         marks = marks.with(Mark::Readonly);
     }
-    if analysis.states.find(&mention.name).is_some() {
+    if analysis.states().find(&mention.name).is_some() {
         marks = marks.with(Mark::State);
     }
     if is_interlock(ladder, mention) {
@@ -276,13 +276,13 @@ fn is_interlock(ladder: &Ladder, mention: &Mention) -> bool {
         ElementKind::Contact(contact) => contact.kind == ContactKind::Closed,
         _ => false,
     });
-    let Some(own) = analysis.states.find(&mention.name).filter(|_| is_closed) else {
+    let Some(own) = analysis.states().find(&mention.name).filter(|_| is_closed) else {
         return false;
     };
     let rung = ladder.rung(place).map(|(_, rung)| rung);
     let elements = rung.into_iter().flat_map(|it| it.network.elements());
     let mut coils = elements.filter_map(|(_, it)| match &it.kind {
-        ElementKind::Coil(coil) => analysis.states.find(&coil.operand.name),
+        ElementKind::Coil(coil) => analysis.states().find(&coil.operand.name),
         _ => None,
     });
     coils.any(|state| state.interlocks.contains(&own.atom))

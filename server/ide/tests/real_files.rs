@@ -98,7 +98,7 @@ fn places(ladder: &Ladder, path: &Path) {
         ladder: Some(ladder),
         spec: None,
     };
-    let mentions = ladder.names.all();
+    let mentions = ladder.names().all();
     let step = mentions.len() / PLACES + 1;
     for mention in mentions.iter().step_by(step) {
         let at = mention.span.range().start;

@@ -66,7 +66,11 @@ impl Atoms {
     pub fn following(earlier: &Self, order: Vec<Atom>) -> Self {
         let was = &earlier.table;
         let same = was.listed.len() == order.len()
-            && was.listed.iter().zip(&order).all(|((_, was), is)| was == is);
+            && was
+                .listed
+                .iter()
+                .zip(&order)
+                .all(|((_, was), is)| was == is);
         let table = match same {
             true => Arc::clone(was),
             false => Arc::new(numbered(order, was)),
@@ -263,7 +267,11 @@ fn squeezed(order: &[Atom], kept: &[Option<AtomId>], earlier: &Table) -> Option<
 /// others are `None`.
 fn longest_ascending(numbers: &[Option<AtomId>]) -> Vec<Option<AtomId>> {
     let mut known = numbers.iter().flatten();
-    if known.clone().zip(known.by_ref().skip(1)).all(|(a, b)| a < b) {
+    if known
+        .clone()
+        .zip(known.by_ref().skip(1))
+        .all(|(a, b)| a < b)
+    {
         return numbers.to_vec();
     }
     // For each length the place of the least number that ends a part of it.
@@ -311,7 +319,11 @@ mod tests {
         let earlier = table(before);
         let later = Atoms::following(&earlier, order(after));
         let marked = later.iter().map(|(id, atom)| {
-            let mark = if earlier.find(atom) == Some(id) { "=" } else { "" };
+            let mark = if earlier.find(atom) == Some(id) {
+                "="
+            } else {
+                ""
+            };
             format!("{mark}{atom}")
         });
         marked.collect::<Vec<_>>().join(" ")
@@ -320,12 +332,18 @@ mod tests {
     #[test]
     fn atoms_keep_their_numbers_when_others_come_and_go() {
         assert_eq!(marked(&["a", "b", "c"], &["a", "x", "c", "y"]), "=a x =c y");
-        assert_eq!(marked(&["a", "b"], &["x", "y", "z", "a", "b"]), "x y z =a =b");
+        assert_eq!(
+            marked(&["a", "b"], &["x", "y", "z", "a", "b"]),
+            "x y z =a =b"
+        );
     }
 
     #[test]
     fn an_atom_that_moves_gets_another_number_and_all_others_keep_theirs() {
-        assert_eq!(marked(&["a", "b", "c", "d"], &["b", "c", "a", "d"]), "=b =c a =d");
+        assert_eq!(
+            marked(&["a", "b", "c", "d"], &["b", "c", "a", "d"]),
+            "=b =c a =d"
+        );
     }
 
     #[test]
@@ -351,7 +369,9 @@ mod tests {
         let mut names = vec!["first".to_owned(), "last".to_owned()];
         for round in 0..200 {
             names.insert(names.len() - 1, format!("n{round}"));
-            let order = names.iter().map(|name| Atom::Variable(name.as_str().into()));
+            let order = names
+                .iter()
+                .map(|name| Atom::Variable(name.as_str().into()));
             atoms = Atoms::following(&atoms, order.collect());
             let said: Vec<String> = atoms.iter().map(|(_, atom)| atom.to_string()).collect();
             assert_eq!(said, names);

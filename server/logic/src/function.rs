@@ -62,7 +62,10 @@ impl Function {
     /// The function that is always `value`.
     pub fn constant(value: bool) -> Self {
         let nodes = constants(0);
-        Self::over(Vec::new(), checked(if value { &nodes } else { &nodes[..1] }))
+        Self::over(
+            Vec::new(),
+            checked(if value { &nodes } else { &nodes[..1] }),
+        )
     }
 
     /// The function that is `atom`, or its complement.

@@ -1,55 +1,96 @@
 use std::collections::HashSet;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use ladder::{Class, Program, Role};
 use logic::{AtomId, Budget, Function, Name};
 
-use crate::conditions::{Conditions, Variable, conditions};
+use crate::conditions::{Conditions, Variable, conditions, conditions_after};
 use crate::conversion::Sums;
 use crate::groups::{Group, groups};
 use crate::registers::{Register, registers};
 use crate::states::{States, states};
-use crate::successions::{Succession, ranked};
+use crate::successions::{Comparisons, Succession, ranked};
 
 /// All that is recovered from a ladder before anybody decides anything.
-#[derive(Clone, Debug)]
+///
+/// What stands between states is worked out when somebody first asks for it:
+/// the findings about a ladder that is being typed need its conditions only.
+#[derive(Debug)]
 pub struct Analysis {
     /// The ladder.
     pub program: Arc<Program>,
     /// The conditions of its coils.
     pub conditions: Conditions,
-    /// Its states.
-    pub states: States,
     /// Its step registers.
     pub registers: Vec<Register>,
-    /// Which state may follow which, best first.
-    pub successions: Vec<Succession>,
-    /// The groups of dependent rungs that hold states.
-    pub groups: Vec<Group>,
+    recovered: OnceLock<Arc<Recovered>>,
+    /// What was known before a change.
+    earlier: Option<Arc<Recovered>>,
+    budget: Budget,
     /// Atoms that the condition of another variable, a timer or a number
     /// depends on.
-    read: HashSet<AtomId>,
+    read: OnceLock<HashSet<AtomId>>,
     /// What conversions have put into words.
     pub(crate) sums: Sums,
+}
+
+/// What is recovered of a program's states.
+#[derive(Debug)]
+struct Recovered {
+    states: States,
+    successions: Vec<Succession>,
+    comparisons: Comparisons,
+    groups: Vec<Group>,
+    /// Whether nobody ended the work early.
+    is_whole: bool,
+}
+
+/// What of a program was computed, and not kept from before a change.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Anew {
+    /// Rungs that were solved.
+    pub rungs: usize,
+    /// Variables whose writes were folded into a next value.
+    pub variables: usize,
+    /// States that were worked out.
+    pub states: usize,
+    /// Pairs of states that were compared.
+    pub pairs: usize,
 }
 
 /// Recovers everything from `program`. When `budget` is cancelled the answer
 /// comes early and is not complete.
 pub fn analyse(program: &Arc<Program>, budget: &Budget) -> Analysis {
-    let mut conditions = conditions(program, budget);
-    let states = states(&conditions, budget);
+    analysed(program, conditions(program, budget), None, budget)
+}
+
+/// The same for a program that was changed since `before`. Whatever the change
+/// does not touch is kept: the answer is that of [`analyse`], but for the
+/// numbers of atoms.
+pub fn analyse_after(before: &Analysis, program: &Arc<Program>, budget: &Budget) -> Analysis {
+    let conditions = conditions_after(&before.program, &before.conditions, program, budget);
+    let recovered = before.recovered.get().filter(|it| it.is_whole).cloned();
+    let recovered = recovered.or_else(|| before.earlier.clone());
+    analysed(program, conditions, recovered, budget)
+}
+
+fn analysed(
+    program: &Arc<Program>,
+    mut conditions: Conditions,
+    earlier: Option<Arc<Recovered>>,
+    budget: &Budget,
+) -> Analysis {
     let registers = registers(program, &mut conditions, budget);
-    let successions = ranked(&conditions, &states, &registers, budget);
-    let groups = groups(&conditions, &states, &registers, &successions);
+    conditions.atoms.settle();
     Analysis {
         program: Arc::clone(program),
-        read: atoms_read(&conditions),
-        sums: Sums::default(),
         conditions,
-        states,
         registers,
-        successions,
-        groups,
+        recovered: OnceLock::new(),
+        earlier,
+        budget: budget.clone(),
+        read: OnceLock::new(),
+        sums: Sums::default(),
     }
 }
 
@@ -74,6 +115,62 @@ fn atoms_read(conditions: &Conditions) -> HashSet<AtomId> {
 }
 
 impl Analysis {
+    /// Its states.
+    pub fn states(&self) -> &States {
+        &self.recovered().states
+    }
+
+    /// Which state may follow which, best first.
+    pub fn successions(&self) -> &[Succession] {
+        &self.recovered().successions
+    }
+
+    /// The groups of dependent rungs that hold states.
+    pub fn groups(&self) -> &[Group] {
+        &self.recovered().groups
+    }
+
+    /// Whether the work on its conditions came to its end, and so can be built
+    /// on when the program changes.
+    pub fn is_whole(&self) -> bool {
+        self.conditions.is_whole()
+    }
+
+    /// What was computed for it, its states included.
+    pub fn anew(&self) -> Anew {
+        let recovered = self.recovered();
+        Anew {
+            rungs: self.conditions.work.rungs,
+            variables: self.conditions.work.variables,
+            states: recovered.states.anew,
+            pairs: recovered.comparisons.anew,
+        }
+    }
+
+    fn recovered(&self) -> &Recovered {
+        self.recovered.get_or_init(|| {
+            let was = self.earlier.as_deref();
+            let (conditions, budget) = (&self.conditions, &self.budget);
+            let states = states(conditions, was.map(|it| &it.states), budget);
+            let (successions, comparisons) = ranked(
+                conditions,
+                &states,
+                &self.registers,
+                was.map(|it| &it.comparisons),
+                budget,
+            );
+            let groups = groups(conditions, &states, &self.registers, &successions);
+            let is_whole = !budget.cancel.is_cancelled();
+            Arc::new(Recovered {
+                states,
+                successions,
+                comparisons,
+                groups,
+                is_whole,
+            })
+        })
+    }
+
     /// Whether the plant sees the variable: it is declared an output, has an
     /// output's address, or no rung reads it, so that whoever does is outside.
     pub fn is_output(&self, variable: &Variable) -> bool {
@@ -94,7 +191,9 @@ impl Analysis {
     /// Whether the condition of some other variable, a timer or a number
     /// depends on the atom.
     pub fn is_read(&self, atom: AtomId) -> bool {
-        self.read.contains(&atom)
+        self.read
+            .get_or_init(|| atoms_read(&self.conditions))
+            .contains(&atom)
     }
 
     /// Whether all writes of the variable stand in the definition of a block:

@@ -17,4 +17,4 @@ pub mod registers;
 pub mod states;
 pub mod successions;
 
-pub use analysis::{Analysis, analyse};
+pub use analysis::{Analysis, Anew, analyse, analyse_after};

@@ -125,7 +125,7 @@ mod tests {
             ("m1_advance", "m1_clamp"),
             ("m2_load", "m2_move"),
         ] {
-            let found = analysis.successions.iter().any(|succession| {
+            let found = analysis.successions().iter().any(|succession| {
                 &*succession.from == from
                     && &*succession.to == to
                     && succession.evidence == recovery::successions::Evidence::Handover

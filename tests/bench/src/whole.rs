@@ -7,5 +7,5 @@ use logic::Budget;
 pub fn successions(text: &str) -> usize {
     let reading = ladder::read(text.as_bytes());
     let analysis = recovery::analyse(&reading.program, &Budget::default());
-    analysis.successions.len()
+    analysis.successions().len()
 }

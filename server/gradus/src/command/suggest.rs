@@ -114,7 +114,7 @@ pub fn run(args: &Args, io: &mut Io) -> std::io::Result<Status> {
 fn find<'a>(method: Method, analysis: &'a Analysis, budget: &Budget) -> Found<'a> {
     let conditions = &analysis.conditions;
     let (states, suggestions) = match method {
-        Method::Ranked => (states(analysis), analysis.successions.clone()),
+        Method::Ranked => (states(analysis), analysis.successions().to_vec()),
         Method::Possible => (coils(analysis), successions::possible(conditions, budget)),
         Method::Cubes => (coils(analysis), successions::cubes(conditions, budget)),
     };
@@ -128,7 +128,7 @@ fn find<'a>(method: Method, analysis: &'a Analysis, budget: &Budget) -> Found<'a
 /// The states, those of registers last.
 fn states(analysis: &Analysis) -> Vec<Name> {
     let bits = analysis
-        .states
+        .states()
         .states
         .iter()
         .map(|state| state.name.clone());

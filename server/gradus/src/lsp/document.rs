@@ -5,7 +5,7 @@
 //! document's own flag that a newer one is there. What a text holds is worked
 //! out once, by the first who asks, while the others wait.
 
-use std::sync::{Arc, OnceLock};
+use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
 use ide::language;
 use ide::{Ladder, Spec};
@@ -31,6 +31,9 @@ pub struct Document {
     /// Its text.
     pub rope: Rope,
     language_id: String,
+    /// The ladder that it was before it was edited, until what it is now is
+    /// known.
+    before: Mutex<Option<Arc<Ladder>>>,
     contents: OnceLock<Contents>,
     findings: OnceLock<Vec<Diagnostic>>,
     outdated: Cancel,
@@ -56,6 +59,7 @@ impl Document {
             version,
             rope: Rope::from_str(text),
             language_id: language_id.to_owned(),
+            before: Mutex::default(),
             contents: OnceLock::new(),
             findings: OnceLock::new(),
             outdated: Cancel::default(),
@@ -101,10 +105,25 @@ impl Document {
             version: self.version,
             rope: self.rope.clone(),
             language_id: self.language_id.clone(),
+            before: Mutex::new(self.last_ladder()),
             contents: OnceLock::new(),
             findings: OnceLock::new(),
             outdated: Cancel::default(),
         }
+    }
+
+    /// The last state of it of which everything is known.
+    fn last_ladder(&self) -> Option<Arc<Ladder>> {
+        // Before what it is: that may become known in between.
+        let before = self.before().clone();
+        match self.contents.get() {
+            Some(Contents::Ladder(ladder)) if ladder.is_whole() => Some(Arc::clone(ladder)),
+            _ => before,
+        }
+    }
+
+    fn before(&self) -> MutexGuard<'_, Option<Arc<Ladder>>> {
+        self.before.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Tells whoever works on it that a newer one is there.
@@ -127,20 +146,25 @@ impl Document {
 
     /// What it holds. May take long, so never on the thread of the protocol.
     pub fn contents(&self) -> &Contents {
-        self.contents.get_or_init(|| {
+        let contents = self.contents.get_or_init(|| {
             let text: Arc<str> = self.rope.to_string().into();
             match self.kind(&text) {
                 Kind::Spec => Contents::Spec(Arc::new(Spec::read(text))),
                 Kind::Foreign => Contents::Foreign,
                 Kind::Ladder(certainty) => {
-                    let ladder = Ladder::read(text, &self.budget());
+                    let before = self.before().clone();
+                    let ladder = Ladder::following(before.as_deref(), text, &self.budget());
                     match certainty {
                         Certainty::Perhaps if !ladder.is_known() => Contents::Foreign,
                         _ => Contents::Ladder(Arc::new(ladder)),
                     }
                 }
             }
-        })
+        });
+        if matches!(contents, Contents::Ladder(ladder) if ladder.is_whole()) {
+            *self.before() = None;
+        }
+        contents
     }
 
     /// Everything there is to say about it. What a spec has to hear depends on

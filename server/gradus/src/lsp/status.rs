@@ -63,7 +63,7 @@ pub fn of(world: World, document: Arc<Document>) -> Option<Status> {
     let count = ide::count(ladder, pair.spec().map(|it| &**it), weakest);
     let states = ladder
         .analysis
-        .groups
+        .groups()
         .iter()
         .map(|it| it.states.len())
         .sum();

@@ -73,7 +73,7 @@ pub fn actions_in_ladder(
     let mut all = mending(findings);
     let states = in_ladder(ladder, span);
     all.extend(about_states(ladder, spec, &states, weakest, budget));
-    if spec.is_none() && !ladder.analysis.groups.is_empty() {
+    if spec.is_none() && !ladder.analysis.groups().is_empty() {
         all.push(Action {
             title: "Create the spec beside the ladder".to_owned(),
             kind: ActionKind::Convert,

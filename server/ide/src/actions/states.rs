@@ -15,14 +15,14 @@ use crate::{Change, Decided, Departing, Ladder, Spec, Standing, legible};
 /// names all that are named in it, else the one that is named there, else those
 /// of the rung.
 pub(super) fn in_ladder(ladder: &Ladder, span: Span) -> Vec<Name> {
-    let states = &ladder.analysis.states;
+    let states = &ladder.analysis.states();
     let is_state = |name: &&Name| states.find(name).is_some();
-    let names = ladder.names.all();
+    let names = ladder.names().all();
     let Some(offset) = cursor(span, names.iter().map(|it| it.span)) else {
         let selected = names.iter().filter(|it| holds(span, it.span));
         return distinct(selected.map(|it| &it.name).filter(is_state));
     };
-    if let Some(mention) = ladder.names.at(offset)
+    if let Some(mention) = ladder.names().at(offset)
         && is_state(&&mention.name)
     {
         return vec![mention.name.clone()];
@@ -155,7 +155,7 @@ impl View<'_> {
     /// Suggestions about which nothing is decided, best first. Arcs of registers
     /// are no suggestions.
     fn open(&self) -> impl Iterator<Item = &Succession> {
-        let all = self.analysis().successions.iter();
+        let all = self.analysis().successions().iter();
         all.filter(|it| it.evidence != Evidence::Written && it.evidence <= self.weakest)
             .filter(|it| self.decided.standing(&it.from, &it.to) == Standing::Open)
     }
@@ -254,7 +254,7 @@ impl View<'_> {
 
     fn initial(&self, state: &Name) -> Option<Action> {
         // Where a register starts is what the ladder moves into it.
-        let is_bit = self.analysis().states.find(state).is_some();
+        let is_bit = self.analysis().states().find(state).is_some();
         (is_bit && !self.decided.is_initial(state)).then(|| Action {
             title: format!("Start the sequence in {state}"),
             kind: ActionKind::Initial,
@@ -265,10 +265,10 @@ impl View<'_> {
 
     /// A succession that nobody suggests.
     fn own(&self, from: &Name, to: &Name) -> Option<Action> {
-        let is_bit = |name: &Name| self.analysis().states.find(name).is_some();
+        let is_bit = |name: &Name| self.analysis().states().find(name).is_some();
         let is_known = self
             .analysis()
-            .successions
+            .successions()
             .iter()
             .any(|it| it.from == *from && it.to == *to);
         let is_open = self.decided.standing(from, to) == Standing::Open;

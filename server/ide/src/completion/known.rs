@@ -21,7 +21,7 @@ impl Asked<'_> {
             let states = register.states.iter();
             states.map(|it| (register.state_name(it.value), it.title.clone(), None))
         });
-        let coils = analysis.states.states.iter().map(|state| {
+        let coils = analysis.states().states.iter().map(|state| {
             let name = state.name.clone();
             (name.clone(), analysis.description(&name), Some(name))
         });

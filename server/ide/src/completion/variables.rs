@@ -52,7 +52,7 @@ pub(super) fn variables(
 fn collected(ladder: &Ladder, typed: Span) -> Vec<Variable<'_>> {
     let program = ladder.program();
     let mut all: BTreeMap<&Name, Variable<'_>> = BTreeMap::new();
-    for mention in ladder.names.all() {
+    for mention in ladder.names().all() {
         let is_typed = typed.start <= mention.span.start && mention.span.end <= typed.end;
         if mention.usage != Usage::Declared
             && (is_typed || !is_name(ladder, mention.span, &mention.name))

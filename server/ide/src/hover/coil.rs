@@ -13,7 +13,7 @@ const TOO_LARGE: &str = "too large to be worked out";
 /// What it is, in a line.
 pub(super) fn summary(coil: &Coil<'_>, analysis: &Analysis) -> String {
     let part = match coil.part {
-        Part::State => match analysis.states.find(coil.name).map(|it| it.holding) {
+        Part::State => match analysis.states().find(coil.name).map(|it| it.holding) {
             Some(recovery::states::Holding::Latch) => "holds a state (latch)",
             _ => "holds a state (seal-in)",
         },
@@ -82,7 +82,7 @@ pub(super) fn neighbours(
     budget: &Budget,
 ) -> String {
     let decided = spec.map(Decided::of).unwrap_or_default();
-    let all = &ladder.analysis.successions;
+    let all = &ladder.analysis.successions();
     let word = |succession: &Succession, other: &Name| {
         let mut words = vec![succession.evidence.word().to_owned()];
         if succession.evidence == Evidence::Handover

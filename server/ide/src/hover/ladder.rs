@@ -16,9 +16,9 @@ pub fn hover_in_ladder(
     offset: usize,
     budget: &Budget,
 ) -> Option<Hover> {
-    let mention = ladder.names.at(offset);
+    let mention = ladder.names().at(offset);
     let place = mention.and_then(|it| it.place);
-    let place = place.or_else(|| ladder.names.element_at(offset));
+    let place = place.or_else(|| ladder.names().element_at(offset));
     let at = place.and_then(|place| Some((place, element(ladder.program(), place)?)));
     if let Some((place, element)) = at
         && !is_plain(element)
@@ -87,7 +87,7 @@ pub(super) fn of_variable(
         Some(coil) => {
             let mut blocks = coil::blocks(&coil, ladder, spec, budget);
             let mut drawn: Vec<Place> = ladder
-                .names
+                .names()
                 .of(name)
                 .filter(|it| it.usage == Usage::Written)
                 .filter_map(|it| it.place)
@@ -164,7 +164,7 @@ fn of_input(ladder: &Ladder, name: &Name, span: Span) -> Hover {
 fn readers(ladder: &Ladder, name: &Name) -> Option<Block> {
     let read = |it: &&Mention| it.usage == Usage::Read;
     let mut rungs: Vec<String> = ladder
-        .names
+        .names()
         .of(name)
         .filter(read)
         .filter_map(|it| rung_title(ladder, it.place?))

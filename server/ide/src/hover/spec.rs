@@ -173,7 +173,7 @@ fn of_value(
     budget: &Budget,
 ) -> Option<Hover> {
     if let Some(ladder) = ladder
-        && ladder.names.of(&mention.name).next().is_some()
+        && ladder.names().of(&mention.name).next().is_some()
     {
         return Some(of_variable(
             ladder,

@@ -125,7 +125,7 @@ fn declared(pair: Pair<'_>, side: Side, subject: &Subject) -> Vec<Target> {
 fn writers(ladder: &Ladder, name: &str) -> Vec<Target> {
     let wholes = std::iter::successors(Some(name), |name| Some(name.rsplit_once('.')?.0));
     wholes
-        .flat_map(|name| ladder.names.of(name))
+        .flat_map(|name| ladder.names().of(name))
         .filter(|it| it.usage == Usage::Written)
         .map(|it| target(ladder, it))
         .collect()
@@ -134,7 +134,7 @@ fn writers(ladder: &Ladder, name: &str) -> Vec<Target> {
 fn declared_in_ladder(ladder: &Ladder, name: &str) -> Vec<Target> {
     let wholes = std::iter::successors(Some(name), |name| Some(name.rsplit_once('.')?.0));
     let declarations = wholes.map(|name| {
-        let all = ladder.names.of(name);
+        let all = ladder.names().of(name);
         let declared = all.filter(|it| it.usage == Usage::Declared);
         declared.map(|it| target(ladder, it)).collect()
     });

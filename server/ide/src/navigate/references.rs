@@ -35,7 +35,7 @@ pub(super) fn in_ladder(ladder: &Ladder, subject: &Subject) -> Vec<Reference> {
     };
     match subject {
         Subject::Variable(name) => ladder
-            .names
+            .names()
             .all()
             .iter()
             .filter(|it| is_part(&it.name, name))

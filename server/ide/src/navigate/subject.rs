@@ -51,7 +51,7 @@ pub(super) fn named(pair: Pair<'_>, side: Side, offset: usize) -> Option<Named> 
 }
 
 fn in_ladder(ladder: &Ladder, offset: usize) -> Option<Named> {
-    if let Some(mention) = ladder.names.at(offset)
+    if let Some(mention) = ladder.names().at(offset)
         && ladder.is_variable(&mention.name)
     {
         return Some(Named {
@@ -60,7 +60,7 @@ fn in_ladder(ladder: &Ladder, offset: usize) -> Option<Named> {
             access: mention.usage.into(),
         });
     }
-    if let Some(place) = ladder.names.element_at(offset) {
+    if let Some(place) = ladder.names().element_at(offset) {
         return in_element(ladder, place);
     }
     let mut routines = ladder.program().routines.iter().enumerate();

@@ -16,7 +16,7 @@ use crate::{Ladder, Mention, Usage, edited, statement};
 /// The variable at the byte `offset`, and the bytes that name it there.
 pub(super) fn at(ladder: &Ladder, offset: usize) -> Option<Result<(Variable, Span), Refusal>> {
     let format = ladder.program().format;
-    let mention = ladder.names.at(offset)?;
+    let mention = ladder.names().at(offset)?;
     let text = ladder.text.get(mention.span.range())?;
     let start = mention.span.range().start;
     let touches =
@@ -66,7 +66,7 @@ pub(super) fn rename(
     let format = ladder.program().format;
     is_free(ladder, variable, new)?;
     let mut edits: BTreeMap<Span, Edit> = BTreeMap::new();
-    for mention in ladder.names.all() {
+    for mention in ladder.names().all() {
         for span in places(ladder, variable, mention) {
             let text = match format {
                 Format::Ladder => respelled(ladder, span, variable, new),
@@ -121,7 +121,7 @@ fn is_free(ladder: &Ladder, variable: &Variable, new: &str) -> Result<(), Refusa
                 && !is_same(format, new, &variable.local)
     };
     let own = |name: &str| name == &*variable.name || is_part_of(name, &variable.name);
-    let all = ladder.names.all().iter();
+    let all = ladder.names().all().iter();
     if let Some(taken) = all
         .map(|it| &it.name)
         .find(|name| is_new(name) && !own(name))
@@ -129,7 +129,7 @@ fn is_free(ladder: &Ladder, variable: &Variable, new: &str) -> Result<(), Refusa
         return Err(Refusal(format!("the ladder has a `{taken}` already")));
     }
     let is_whole = |it: &&Mention| is_part_of(new, &it.name) && !own(&it.name);
-    match ladder.names.all().iter().find(is_whole) {
+    match ladder.names().all().iter().find(is_whole) {
         Some(whole) => Err(Refusal(format!(
             "`{new}` would be a part of `{}`, which the ladder has",
             whole.name

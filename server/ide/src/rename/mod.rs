@@ -113,7 +113,7 @@ pub fn rename_in_spec(
 }
 
 fn has(ladder: &Ladder, name: &str) -> bool {
-    ladder.names.of(name).next().is_some()
+    ladder.names().of(name).next().is_some()
 }
 
 impl Own {

@@ -45,7 +45,7 @@ pub(super) fn is_part_of(name: &str, whole: &str) -> bool {
 /// The variable called `name`, or of which that is a member or a value. `None`
 /// if the ladder has none of that name.
 pub(super) fn variable_called(ladder: &Ladder, name: &str) -> Option<Result<Variable, Refusal>> {
-    let known = |name: &str| ladder.names.of(name).next().is_some();
+    let known = |name: &str| ladder.names().of(name).next().is_some();
     let register = name.split_once('=').map(|(register, _)| register);
     let name = register.filter(|_| !known(name)).unwrap_or(name);
     let root = root(ladder, name);
@@ -54,7 +54,7 @@ pub(super) fn variable_called(ladder: &Ladder, name: &str) -> Option<Result<Vari
     }
     // In an index, a name may stand in other letters.
     let format = ladder.program().format;
-    let mut all = ladder.names.all().iter();
+    let mut all = ladder.names().all().iter();
     let same = all.find(|it| ignores_case(format) && is_same(format, &it.name, root))?;
     Some(variable(ladder, &same.name))
 }
@@ -65,7 +65,7 @@ fn root<'n>(ladder: &Ladder, name: &'n str) -> &'n str {
     let wholes = name
         .match_indices(['.', '[', '^'])
         .map(|(at, _)| &name[..at]);
-    let used = |it: &&str| !it.is_empty() && ladder.names.of(it).next().is_some();
+    let used = |it: &&str| !it.is_empty() && ladder.names().of(it).next().is_some();
     wholes.into_iter().find(used).unwrap_or(name)
 }
 
@@ -90,7 +90,7 @@ fn variable(ladder: &Ladder, name: &str) -> Result<Variable, Refusal> {
 /// where it is.
 fn as_declared(ladder: &Ladder, name: &str) -> Option<String> {
     let format = ladder.program().format;
-    let mut mentions: Vec<_> = ladder.names.of(name).collect();
+    let mut mentions: Vec<_> = ladder.names().of(name).collect();
     mentions.sort_by_key(|it| it.usage != Usage::Declared);
     let with_scope = |written: &str| {
         let scope = name.strip_suffix(written)?;
@@ -107,7 +107,7 @@ fn as_declared(ladder: &Ladder, name: &str) -> Option<String> {
 /// How a text writes the variable where only parts of it stand.
 fn as_whole(ladder: &Ladder, name: &str) -> Option<String> {
     let format = ladder.program().format;
-    let all = ladder.names.all().iter();
+    let all = ladder.names().all().iter();
     let mut parts = all.filter(|it| is_part_of(&it.name, name));
     parts.find_map(|it| {
         let text = ladder.text.get(it.span.range())?;

@@ -69,7 +69,7 @@ fn driven(ladder: &Ladder, element: &Element) -> Option<Symbol> {
         ElementKind::Coil(coil) => {
             let analysis = &ladder.analysis;
             let name = &coil.operand.name;
-            let kind = match analysis.states.find(name) {
+            let kind = match analysis.states().find(name) {
                 Some(_) => SymbolKind::State,
                 None => SymbolKind::Coil,
             };

@@ -45,7 +45,11 @@ fn kept(was: &Arc<Variable>, writes: &[Write]) -> Option<Arc<Variable>> {
     }
     // Which writes share a rung matters, and so does nothing else of a place.
     let alike = was.writes.len() == writes.len()
-        && was.writes.iter().zip(writes).all(|(was, is)| is.moved_to(was.place) == *was)
+        && was
+            .writes
+            .iter()
+            .zip(writes)
+            .all(|(was, is)| is.moved_to(was.place) == *was)
         && stretches(&was.writes) == stretches(writes);
     alike.then(|| {
         Arc::new(Variable {

@@ -136,6 +136,11 @@ impl Conditions {
         self.variable(self.atoms.find_variable(&name.into())?)
     }
 
+    /// Whether nobody ended the work early.
+    pub fn is_whole(&self) -> bool {
+        self.allowed.is_some()
+    }
+
     /// A function as a canonical expression.
     pub fn expr(&self, function: &Function, budget: &Budget) -> Result<Expr, Stop> {
         function.to_expr(&self.atoms, budget)

@@ -88,12 +88,7 @@ fn visited(program: &Program, execution: &flow::Execution) -> Vec<(usize, usize)
 
 /// All atoms that are named, then those that the solved rungs ask for beside
 /// them. `known` knows the latter.
-fn order(
-    named: &[Atom],
-    rungs: &Rungs,
-    visited: &[(usize, usize)],
-    known: &Atoms,
-) -> Vec<Atom> {
+fn order(named: &[Atom], rungs: &Rungs, visited: &[(usize, usize)], known: &Atoms) -> Vec<Atom> {
     let mut order = named.to_vec();
     let mut seen: FxHashSet<AtomId> = named.iter().filter_map(|atom| known.find(atom)).collect();
     for &place in visited {
@@ -206,7 +201,15 @@ fn aligned(
 
 fn is_same(a: &ladder::Network, b: &ladder::Network) -> bool {
     let edges = |it: &ladder::Network| {
-        it.graph().raw_edges().iter().map(|e| (e.source(), e.target(), e.weight.clone())).collect::<Vec<_>>()
+        it.graph()
+            .raw_edges()
+            .iter()
+            .map(|e| (e.source(), e.target(), e.weight.clone()))
+            .collect::<Vec<_>>()
     };
-    a.len() == b.len() && a.elements().map(|(_, it)| &it.kind).eq(b.elements().map(|(_, it)| &it.kind)) && edges(a) == edges(b)
+    a.len() == b.len()
+        && a.elements()
+            .map(|(_, it)| &it.kind)
+            .eq(b.elements().map(|(_, it)| &it.kind))
+        && edges(a) == edges(b)
 }

@@ -1,7 +1,7 @@
 //! From rungs, each solved by itself, to what happens in a scan.
 
-use std::collections::hash_map::Entry;
 use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 use std::sync::Arc;
 
 use ladder::{ElementKind, Program, flow};

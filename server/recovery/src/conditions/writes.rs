@@ -136,7 +136,11 @@ pub(super) fn writes(
                     target: name.clone(),
                     value: assignment.value.clone(),
                     guard: conjoined(
-                        &[&occurrence.event.guard, &occurrence.solved, &occurrence.zone],
+                        &[
+                            &occurrence.event.guard,
+                            &occurrence.solved,
+                            &occurrence.zone,
+                        ],
                         walk.budget,
                     ),
                     place: occurrence.place,

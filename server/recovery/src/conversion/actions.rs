@@ -48,7 +48,7 @@ pub(super) fn add(
     let mut conditional = Vec::new();
     for variable in own_variables(analysis) {
         let atom = variable.atom;
-        let mut stored = analysis.states.stored.iter();
+        let mut stored = analysis.states().stored.iter();
         if let Some(stored) = stored.find(|it| it.atom == atom) {
             actions.add_stored(stored);
         } else if memories.iter().any(|memory| memory.atom == atom)
@@ -106,7 +106,7 @@ impl Actions<'_> {
         let mut writes = variable.writes.iter();
         let is_coil = writes.any(|write| matches!(write.kind, WriteKind::Coil(_)));
         // A transition bit is resolved wherever it is read.
-        let is_resolved = self.analysis.states.auxiliaries.contains(variable.atom)
+        let is_resolved = self.analysis.states().auxiliaries.contains(variable.atom)
             && !self.analysis.is_output(variable);
         if !is_coil || is_resolved {
             return;

@@ -61,7 +61,7 @@ fn sorted(names: &[Name]) -> Vec<Name> {
 /// with those that it shows without them.
 fn shown_decisions(analysis: &Analysis, existing: &Spec) -> Vec<Decision> {
     let shown = Shown::new(&existing.grafcet.chart);
-    let is_bit = |name: &Name| analysis.states.find(name).is_some();
+    let is_bit = |name: &Name| analysis.states().find(name).is_some();
     let mut decisions = Vec::new();
     let mut accepted: BTreeSet<(Name, Name)> = BTreeSet::new();
     let mut initial: BTreeSet<Name> = BTreeSet::new();

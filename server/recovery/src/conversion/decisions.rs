@@ -53,7 +53,7 @@ pub fn decide(analysis: &Analysis, made: &[Decision], accept: &Accept) -> Vec<De
                 Evidence::Handover => true,
                 Evidence::Possible => *accept == Accept::All,
             };
-            for (from, to) in together(analysis.successions.iter().filter(wanted)) {
+            for (from, to) in together(analysis.successions().iter().filter(wanted)) {
                 add(&from, to);
             }
         }
@@ -116,7 +116,7 @@ impl Accepted {
     pub fn new(analysis: &Analysis, decisions: &[Decision]) -> Self {
         let mut accepted = Self::default();
         for decision in decisions {
-            let atom = |name: &Name| analysis.states.find(name).map(|state| state.atom);
+            let atom = |name: &Name| analysis.states().find(name).map(|state| state.atom);
             match &decision.verdict {
                 Verdict::Accept { from, to } => {
                     let from = atom(from);

@@ -125,7 +125,7 @@ fn declaration(places: &Places, step: Option<&Name>) -> Span {
 /// Names of states in decisions that the ladder does not have.
 fn unknown_decisions(analysis: &Analysis, reading: &Reading) -> Vec<Diagnostic> {
     let values = register_values(analysis);
-    let is_known = |name: &Name| values.contains(name) || analysis.states.find(name).is_some();
+    let is_known = |name: &Name| values.contains(name) || analysis.states().find(name).is_some();
     state_mentions(reading)
         .filter(|mention| is_in_decision(mention, reading) && !is_known(&mention.name))
         .map(|mention| {

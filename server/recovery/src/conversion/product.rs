@@ -28,7 +28,7 @@ pub(super) fn memories(
     wording: &mut Wording<'_>,
 ) -> Vec<Memory> {
     let members = accepted.members();
-    let stored = |atom| analysis.states.stored.iter().any(|it| it.atom == atom);
+    let stored = |atom| analysis.states().stored.iter().any(|it| it.atom == atom);
     let mut found = Vec::new();
     for variable in super::actions::own_variables(analysis) {
         if members.contains(&variable.atom) || stored(variable.atom) || !is_coil(variable) {

@@ -64,7 +64,7 @@ impl<'a> Wording<'a> {
     pub(super) fn resolved(&self, variable: &Variable) -> Option<Function> {
         let next = variable.next.as_ref().ok()?;
         let conditions = &self.analysis.conditions;
-        let auxiliaries = &self.analysis.states.auxiliaries;
+        let auxiliaries = &self.analysis.states().auxiliaries;
         Some(auxiliaries.resolve(next, conditions, &self.budget))
     }
 

@@ -88,6 +88,9 @@ const MOST_VALUES: usize = 1_000;
 /// The step registers of `program`. New atoms, such as `OK[3]` for `OK[R]` at
 /// 3, are added to the table of `conditions`.
 pub fn registers(program: &Program, conditions: &mut Conditions, budget: &Budget) -> Vec<Register> {
+    if conditions.register_writes.is_empty() {
+        return Vec::new();
+    }
     let mut writes: BTreeMap<Name, Vec<RegisterWrite>> = BTreeMap::new();
     for write in &conditions.register_writes {
         writes

@@ -1,6 +1,7 @@
-use std::collections::{BTreeSet, HashMap};
+use std::collections::BTreeSet;
 
 use logic::{AtomId, Budget, Function};
+use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::conditions::{Conditions, Variable, WriteKind};
 
@@ -13,7 +14,7 @@ use crate::conditions::{Conditions, Variable, WriteKind};
 /// others keep their names, which the reader knows.
 #[derive(Clone, Debug, Default)]
 pub struct Auxiliaries {
-    conditions: HashMap<AtomId, Function>,
+    conditions: FxHashMap<AtomId, Function>,
 }
 
 /// Coils between a state and its condition. Real step chains have one; more
@@ -31,11 +32,11 @@ impl Auxiliaries {
     /// The auxiliary coils of a program whose states are `states`.
     pub(super) fn find(
         conditions: &Conditions,
-        states: &BTreeSet<AtomId>,
+        states: &FxHashSet<AtomId>,
         budget: &Budget,
     ) -> Self {
-        let mut near: BTreeSet<AtomId> = states.clone();
-        let mut found = HashMap::new();
+        let mut near: FxHashSet<AtomId> = states.clone();
+        let mut found = FxHashMap::default();
         let candidates: Vec<(AtomId, &Function)> = conditions
             .variables
             .iter()
@@ -79,6 +80,31 @@ impl Auxiliaries {
                     .insert(variable.atom, without_copies(&source, conditions, budget));
             }
         }
+    }
+
+    /// The atoms whose conditions, timers and copies decide what resolving
+    /// `function` gives, ascending.
+    pub(super) fn asked_by(&self, function: &Function, conditions: &Conditions) -> Vec<AtomId> {
+        let mut asked: BTreeSet<AtomId> = BTreeSet::new();
+        let mut open = function.support().to_vec();
+        while let Some(atom) = open.pop() {
+            if !asked.insert(atom) {
+                continue;
+            }
+            if let Some(condition) = self.conditions.get(&atom) {
+                open.extend(condition.support());
+            }
+            if let Some(timer) = conditions.timers.get(&atom) {
+                open.extend(timer.input.iter().flat_map(Function::support));
+            }
+            open.extend(conditions.variable(atom).and_then(copied_from));
+        }
+        asked.into_iter().collect()
+    }
+
+    /// All of them.
+    pub(super) fn all(&self) -> &FxHashMap<AtomId, Function> {
+        &self.conditions
     }
 
     /// The condition of an auxiliary coil, as its rung has it.
@@ -163,7 +189,7 @@ fn carried(variable: &Variable) -> Option<&Function> {
 
 /// The bit that a bit is a copy of in every scan: `State.3` where the whole
 /// of `Next` is moved to `State`.
-fn copied_from(variable: &Variable) -> Option<AtomId> {
+pub(super) fn copied_from(variable: &Variable) -> Option<AtomId> {
     match &variable.writes[..] {
         [write] => match (&write.kind, &write.guard) {
             (WriteKind::BitOf(source), Ok(guard)) if guard.is_true() => Some(*source),

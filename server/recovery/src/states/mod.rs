@@ -11,15 +11,20 @@
 //! in [`Conditions`]; answers show both.
 
 mod auxiliary;
+mod kept;
 mod stored;
 
-use std::collections::{BTreeSet, HashMap};
+use std::collections::HashMap;
+use std::sync::{Arc, OnceLock};
 
 use logic::{AtomId, Budget, Function, Name};
+use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::conditions::{Conditions, Variable, WriteKind};
+use crate::successions::Facets;
 
 pub use auxiliary::Auxiliaries;
+use kept::Kept;
 
 /// How a state is held.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -49,6 +54,12 @@ pub struct State {
     pub deactivation: Function,
     /// States whose normally closed contacts stand before its coil.
     pub interlocks: Vec<AtomId>,
+    /// The variable that holds it.
+    variable: Arc<Variable>,
+    /// Atoms that resolving its condition has asked about, ascending.
+    asked: Vec<AtomId>,
+    /// What comparing it with others needs, worked out once.
+    pub(crate) facets: OnceLock<Box<Facets>>,
 }
 
 /// A state whose condition has more nodes than this is compared with no
@@ -91,19 +102,27 @@ pub struct StoredOutput {
 #[derive(Clone, Debug)]
 pub struct States {
     /// States, in the order of their atoms.
-    pub states: Vec<State>,
+    pub states: Vec<Arc<State>>,
     /// Memories that repeat states.
     pub stored: Vec<StoredOutput>,
     /// Coils that were resolved into the states' conditions.
     pub auxiliaries: Auxiliaries,
-    places: HashMap<AtomId, usize>,
+    /// How many states were worked out, and not kept from before a change.
+    pub anew: usize,
+    places: FxHashMap<AtomId, usize>,
     names: HashMap<Name, usize>,
+    /// Whether each variable was found to hold a state.
+    holding: FxHashMap<AtomId, (Arc<Variable>, bool)>,
+    /// What was worked out of each variable, repeaters too.
+    worked_out: FxHashMap<AtomId, Arc<State>>,
+    /// The timers and the copies that conditions were resolved by.
+    resolvers: kept::Resolvers,
 }
 
 impl States {
     /// The state that `atom` is.
     pub fn state(&self, atom: AtomId) -> Option<&State> {
-        self.places.get(&atom).map(|&at| &self.states[at])
+        self.places.get(&atom).map(|&at| &*self.states[at])
     }
 
     /// The place of the state that `atom` is, in [`States::states`].
@@ -113,28 +132,56 @@ impl States {
 
     /// The state called `name`.
     pub fn find(&self, name: &str) -> Option<&State> {
-        self.names.get(name).map(|&at| &self.states[at])
+        self.names.get(name).map(|&at| &*self.states[at])
     }
 }
 
-/// The states of a program with these conditions.
-pub fn states(conditions: &Conditions, budget: &Budget) -> States {
-    let candidates: Vec<&Variable> = conditions
+/// The states of a program with these conditions. What is known from `earlier`
+/// of a variable that did not change, and whose condition is resolved by what
+/// did not change, is kept.
+pub fn states(conditions: &Conditions, earlier: Option<&States>, budget: &Budget) -> States {
+    let resolvers = kept::Resolvers::of(conditions);
+    let mut kept = Kept::new(earlier, &resolvers);
+    let mut holding = FxHashMap::default();
+    for variable in &conditions.variables {
+        let holds = kept
+            .holds(variable)
+            .unwrap_or_else(|| holds_state(variable, conditions, budget));
+        holding.insert(variable.atom, (Arc::clone(variable), holds));
+    }
+    let candidates: Vec<&Arc<Variable>> = conditions
         .variables
         .iter()
-        .map(|variable| &**variable)
-        .filter(|variable| holds_state(variable, conditions, budget))
+        .filter(|variable| holding[&variable.atom].1)
         .collect();
-    let atoms: BTreeSet<AtomId> = candidates.iter().map(|variable| variable.atom).collect();
+    let atoms: FxHashSet<AtomId> = candidates.iter().map(|variable| variable.atom).collect();
     let auxiliaries = Auxiliaries::find(conditions, &atoms, budget);
-    let mut states: Vec<State> = candidates
-        .into_iter()
-        .filter_map(|variable| state(variable, &atoms, &auxiliaries, conditions, budget))
+    kept.resolve_by(&auxiliaries);
+    let mut anew = 0;
+    let found = candidates.into_iter().filter_map(|variable| {
+        if let Some(state) = kept.state(variable) {
+            return Some(Arc::clone(state));
+        }
+        anew += 1;
+        state(variable, &auxiliaries, conditions, budget).map(Arc::new)
+    });
+    let mut states: Vec<Arc<State>> = found.collect();
+    let mut worked_out: FxHashMap<AtomId, Arc<State>> = states
+        .iter()
+        .map(|state| (state.atom, Arc::clone(state)))
         .collect();
     let stored = stored::take_repeaters(&mut states);
-    let kept: BTreeSet<AtomId> = states.iter().map(|state| state.atom).collect();
+    let left: FxHashSet<AtomId> = states.iter().map(|state| state.atom).collect();
     for state in &mut states {
-        state.interlocks.retain(|other| kept.contains(other));
+        let closed = state.variable.closed_contacts.iter().copied();
+        let interlocks = closed.filter(|other| left.contains(other));
+        if !interlocks.clone().eq(state.interlocks.iter().copied()) {
+            let interlocks = interlocks.collect();
+            let state = Arc::make_mut(state);
+            state.interlocks = interlocks;
+            state.facets = OnceLock::new();
+        }
+        worked_out.insert(state.atom, Arc::clone(state));
     }
     let places = states
         .iter()
@@ -151,7 +198,11 @@ pub fn states(conditions: &Conditions, budget: &Budget) -> States {
         states,
         stored,
         auxiliaries,
+        anew,
         places,
+        holding,
+        worked_out,
+        resolvers,
     }
 }
 
@@ -172,14 +223,14 @@ fn holds_state(variable: &Variable, conditions: &Conditions, budget: &Budget) ->
 }
 
 fn state(
-    variable: &Variable,
-    candidates: &BTreeSet<AtomId>,
+    variable: &Arc<Variable>,
     auxiliaries: &Auxiliaries,
     conditions: &Conditions,
     budget: &Budget,
 ) -> Option<State> {
     let next = variable.next.as_ref().ok()?;
     let plain = auxiliary::without_copies(next, conditions, budget);
+    let asked = auxiliaries.asked_by(next, conditions);
     let next = auxiliaries.resolve(next, conditions, budget);
     let turns_on = next.restrict(variable.atom, false);
     let deactivation = next.restrict(variable.atom, true).not();
@@ -202,11 +253,10 @@ fn state(
         next,
         turns_on,
         deactivation,
-        interlocks: variable
-            .closed_contacts
-            .iter()
-            .copied()
-            .filter(|other| candidates.contains(other))
-            .collect(),
+        // Known when all states are.
+        interlocks: Vec::new(),
+        variable: Arc::clone(variable),
+        asked,
+        facets: OnceLock::new(),
     })
 }

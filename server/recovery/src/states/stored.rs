@@ -1,4 +1,5 @@
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
 use logic::AtomId;
 
@@ -9,7 +10,7 @@ use super::{State, StoredOutput};
 ///
 /// A memory that repeats another repeater stays a state, so that what is
 /// taken out is always explained by what is left.
-pub(super) fn take_repeaters(states: &mut Vec<State>) -> Vec<StoredOutput> {
+pub(super) fn take_repeaters(states: &mut Vec<Arc<State>>) -> Vec<StoredOutput> {
     let all: BTreeSet<AtomId> = states.iter().map(|state| state.atom).collect();
     let repeats = |state: &State, others: &BTreeSet<AtomId>| {
         let mut support = state

@@ -10,11 +10,16 @@
 
 use std::collections::{BTreeSet, HashMap};
 
+use std::sync::Arc;
+
 use logic::{AtomId, Budget, Function, Stop};
+
+use super::facets::Form;
+use crate::states::State;
 
 /// What common atoms tell of a condition.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-struct Bounds {
+pub(super) struct Bounds {
     /// The least condition over common atoms that holds wherever it does.
     above: Function,
     /// The greatest condition over common atoms wherever it holds.
@@ -25,7 +30,7 @@ impl Bounds {
     /// The bounds of everything from `least` to `most`: above the one, below
     /// the other. `None` if nothing can lie between it and another, or it never
     /// holds, or the budget does not allow to tell.
-    fn new(
+    pub(super) fn new(
         least: &Function,
         most: &Function,
         common: &BTreeSet<AtomId>,
@@ -52,9 +57,10 @@ pub(super) struct Ending {
     pub(super) again: Function,
 }
 
-/// Endings by what common atoms tell of them.
+/// States by what common atoms tell of their endings.
 #[derive(Debug)]
 pub(super) struct ByCommon {
+    form: Form,
     common: BTreeSet<AtomId>,
     places: HashMap<Bounds, Vec<usize>>,
     /// Answers given before.
@@ -62,34 +68,43 @@ pub(super) struct ByCommon {
 }
 
 impl ByCommon {
-    /// Indexes endings by their place in the list.
-    pub(super) fn new(endings: &[Ending], common: BTreeSet<AtomId>, budget: &Budget) -> Self {
+    /// Indexes the endings of states by their place in the list.
+    pub(super) fn new(
+        form: Form,
+        states: &[Arc<State>],
+        common: BTreeSet<AtomId>,
+        budget: &Budget,
+    ) -> Self {
         let mut places: HashMap<Bounds, Vec<usize>> = HashMap::new();
         if !common.is_empty() {
-            for (at, ending) in endings.iter().enumerate() {
-                if let Ok(Some(bounds)) = ending.bounds(&common, budget) {
+            for (at, state) in states.iter().enumerate() {
+                let [ending, _] = state.facet(form).bounds(&common, budget);
+                if let Some(bounds) = ending {
                     places.entry(bounds).or_default().push(at);
                 }
             }
         }
         Self {
+            form,
             common,
             places,
             known: HashMap::new(),
         }
     }
 
-    /// Places of the endings that may imply `starts`, or be implied by it,
-    /// through common atoms alone.
-    pub(super) fn sharing(&mut self, starts: &Function, budget: &Budget) -> &[usize] {
+    /// Places of the states whose ending may imply what starts `state`, or be
+    /// implied by it, through common atoms alone.
+    pub(super) fn sharing(&mut self, state: &State, budget: &Budget) -> &[usize] {
         if self.places.is_empty() {
             return &[];
         }
-        let Some(bounds) = Bounds::new(starts, starts, &self.common, budget) else {
-            return &[];
-        };
+        let [_, starts] = state.facet(self.form).bounds(&self.common, budget);
+        starts.map_or(&[], |bounds| self.meeting(bounds, budget))
+    }
+
+    fn meeting(&mut self, starts: Bounds, budget: &Budget) -> &[usize] {
         let places = &self.places;
-        self.known.entry(bounds).or_insert_with_key(|starts| {
+        self.known.entry(starts).or_insert_with_key(|starts| {
             let meeting = places
                 .iter()
                 .filter(|(ends, _)| starts.imply(ends, budget) || ends.imply(starts, budget));
@@ -107,7 +122,11 @@ impl Ending {
         }
     }
 
-    fn bounds(&self, common: &BTreeSet<AtomId>, budget: &Budget) -> Result<Option<Bounds>, Stop> {
+    pub(super) fn bounds(
+        &self,
+        common: &BTreeSet<AtomId>,
+        budget: &Budget,
+    ) -> Result<Option<Bounds>, Stop> {
         let least = self.ends.and_not(&self.again, budget)?;
         let most = self.ends.or(&self.again, budget)?;
         Ok(Bounds::new(&least, &most, common, budget))
@@ -130,15 +149,26 @@ mod tests {
             Function::of(&expr, &mut atoms, &budget).expect("a small function")
         };
         let never = function("0");
-        let endings: Vec<Ending> = ends
-            .iter()
-            .map(|text| Ending {
+        let common = BTreeSet::from([stop]);
+        let mut places: HashMap<Bounds, Vec<usize>> = HashMap::new();
+        for (at, text) in ends.iter().enumerate() {
+            let ending = Ending {
                 ends: function(text),
                 again: never.clone(),
-            })
-            .collect();
-        let mut index = ByCommon::new(&endings, BTreeSet::from([stop]), &budget);
-        index.sharing(&function(starts), &budget).to_vec()
+            };
+            if let Ok(Some(bounds)) = ending.bounds(&common, &budget) {
+                places.entry(bounds).or_default().push(at);
+            }
+        }
+        let starts = function(starts);
+        let bounds = Bounds::new(&starts, &starts, &common, &budget);
+        let mut index = ByCommon {
+            form: Form::Plain,
+            common,
+            places,
+            known: HashMap::new(),
+        };
+        bounds.map_or(Vec::new(), |bounds| index.meeting(bounds, &budget).to_vec())
     }
 
     #[test]

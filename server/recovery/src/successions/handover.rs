@@ -1,10 +1,13 @@
 //! Handover: the condition that ends one state is what starts the other.
 
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
 use logic::{AtomId, Budget, Function, Stop};
 
-use super::common::{ByCommon, Ending};
+use super::common::ByCommon;
+use super::compared::Compared;
+use super::facets::{Form, ending};
 use super::shared::ByLiteral;
 use crate::conditions::Conditions;
 use crate::states::{State, States};
@@ -18,46 +21,17 @@ pub(super) struct Handover {
     pub(super) condition: Function,
 }
 
-/// The next value of a state in one of its two forms: as its rungs have it,
-/// or with auxiliary coils resolved.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Form {
-    Plain,
-    Resolved,
-}
-
-impl Form {
-    fn next(self, state: &State) -> &Function {
-        match self {
-            Self::Plain => &state.plain,
-            Self::Resolved => &state.next,
-        }
-    }
-
-    fn turns_on(self, state: &State) -> Function {
-        self.next(state).restrict(state.atom, false)
-    }
-}
-
 /// All handovers between states. The plain form of their conditions is tried
 /// first: in it a chain with transition bits shows which bit ends the one and
 /// starts the other. Only where that finds nothing are the bits resolved.
 pub(super) fn handovers(
     states: &States,
     conditions: &Conditions,
+    compared: &mut Compared<'_>,
     budget: &Budget,
 ) -> Vec<Handover> {
     let list = &states.states;
-    let mut indexes = [Form::Plain, Form::Resolved].map(|form| {
-        let endings = list.iter().map(|state| match state.is_comparable() {
-            true => Ending {
-                ends: ending(state, None, form),
-                again: form.turns_on(state),
-            },
-            false => Ending::never(),
-        });
-        Index::new(form, &endings.collect::<Vec<_>>(), budget)
-    });
+    let mut indexes = [Form::Plain, Form::Resolved].map(|form| Index::new(form, list, budget));
     let mut followed = neighbours(states);
     let mut found = Vec::new();
     for (to, from) in list.iter().zip(&mut followed) {
@@ -68,14 +42,17 @@ pub(super) fn handovers(
             continue;
         }
         for index in &mut indexes {
-            from.extend(index.sharing(to, budget));
+            index.add_sharing(to, from, budget);
         }
         for &at in &*from {
             let from = &list[at];
             if from.atom == to.atom || !from.is_comparable() {
                 continue;
             }
-            if let Some(condition) = handed_over(from, to, states, conditions, budget) {
+            let condition = compared.handed_over(from, to, || {
+                handed_over(from, to, states, conditions, budget)
+            });
+            if let Some(condition) = condition {
                 found.push(Handover {
                     from: from.atom,
                     to: to.atom,
@@ -95,20 +72,18 @@ struct Index {
 }
 
 impl Index {
-    fn new(form: Form, endings: &[Ending], budget: &Budget) -> Self {
-        let by_literal = ByLiteral::new(endings.iter().map(|ending| &ending.ends));
+    fn new(form: Form, states: &[Arc<State>], budget: &Budget) -> Self {
+        let by_literal = ByLiteral::new(states.iter().map(|it| &*it.facet(form).ends_by));
         Self {
             form,
-            by_common: ByCommon::new(endings, by_literal.common(), budget),
+            by_common: ByCommon::new(form, states, by_literal.common(), budget),
             by_literal,
         }
     }
 
-    fn sharing(&mut self, to: &State, budget: &Budget) -> BTreeSet<usize> {
-        let starts = self.form.turns_on(to);
-        let mut found = self.by_literal.sharing(&starts);
-        found.extend(self.by_common.sharing(&starts, budget));
-        found
+    fn add_sharing(&mut self, to: &State, found: &mut BTreeSet<usize>, budget: &Budget) {
+        found.extend(self.by_literal.sharing(&to.facet(self.form).starts_by));
+        found.extend(self.by_common.sharing(to, budget));
     }
 }
 
@@ -171,10 +146,10 @@ fn handover(
 ) -> Result<Option<Function>, Stop> {
     let situation =
         |function: &Function| function.restrict(from.atom, true).restrict(to.atom, false);
-    let starts = situation(&form.turns_on(to));
+    let starts = situation(to.starts(form));
     let ends = situation(&ending(from, Some(to.atom), form));
-    let again = form.turns_on(from).restrict(to.atom, false);
-    let apart = started_apart(&form.turns_on(from), &form.turns_on(to));
+    let again = from.starts(form).restrict(to.atom, false);
+    let apart = started_apart(from.starts(form), to.starts(form));
     let quiet = if apart {
         again.not()
     } else {
@@ -200,23 +175,6 @@ fn handover(
 /// Whether two states are started by different variables.
 pub(crate) fn started_apart(first: &Function, second: &Function) -> bool {
     first.support().iter().all(|atom| !second.depends_on(*atom))
-}
-
-/// What ends `from`, with the normally closed contacts of states that lock it
-/// out set aside (the paper, section 3.2), but not those of `to`.
-fn ending(from: &State, to: Option<AtomId>, form: Form) -> Function {
-    let aside = from.interlocks.iter().filter(|other| Some(**other) != to);
-    let next = aside.fold(form.next(from).clone(), |next, other| {
-        let open = next.restrict(*other, false);
-        // A contact whose opening alone ends the state is no interlock but
-        // the way the state ends: a relay sequence is written so.
-        if open.restrict(from.atom, true).is_true() {
-            next
-        } else {
-            open
-        }
-    });
-    next.restrict(from.atom, true).not()
 }
 
 fn locks_out(by: &State, state: &State) -> bool {

@@ -6,7 +6,9 @@
 //! at every coil, as the paper does.
 
 mod common;
+mod compared;
 mod cubes;
+mod facets;
 mod handover;
 mod kind;
 mod possible;
@@ -16,7 +18,10 @@ use std::sync::Arc;
 
 use logic::{AtomId, Budget, Function, Name};
 
+use compared::Compared;
+pub use compared::Comparisons;
 pub use cubes::cubes;
+pub(crate) use facets::Facets;
 pub(crate) use handover::{handed_over, started_apart};
 pub use possible::possible;
 
@@ -85,17 +90,20 @@ pub struct Succession {
 const MOST_PAIRS: usize = 1_000_000;
 
 /// All suggestions for the states of a program, best first: arcs of step
-/// registers, handovers, then what is possible. Stops early, with what it
-/// has, when cancelled.
+/// registers, handovers, then what is possible; and the comparisons that were
+/// made for it, of which those of `earlier` are kept whose states are what they
+/// were. Stops early, with what it has, when cancelled.
 pub fn ranked(
     conditions: &Conditions,
     states: &States,
     registers: &[Register],
+    earlier: Option<&Comparisons>,
     budget: &Budget,
-) -> Vec<Succession> {
+) -> (Vec<Succession>, Comparisons) {
     let mut found: Vec<Succession> = registers.iter().flat_map(Register::successions).collect();
-    let handovers = handover::handovers(states, conditions, budget);
-    let rest = possible::among_states(states, &handovers, budget);
+    let mut compared = Compared::new(states, earlier);
+    let handovers = handover::handovers(states, conditions, &mut compared, budget);
+    let rest = possible::among_states(states, &handovers, &mut compared, budget);
     let mut by_rung: Vec<(AtomId, AtomId, Evidence, Option<Function>)> = handovers
         .into_iter()
         .map(|h| (h.from, h.to, Evidence::Handover, Some(h.condition)))
@@ -105,7 +113,7 @@ pub fn ranked(
         )
         .collect();
     by_rung.sort_by_key(|(from, to, evidence, _)| (*evidence, *from, *to));
-    let kinds = kind::kinds(&by_rung, states, budget);
+    let kinds = kind::kinds(&by_rung, states, &mut compared, budget);
     found.extend(
         by_rung
             .into_iter()
@@ -118,7 +126,7 @@ pub fn ranked(
                 condition,
             }),
     );
-    found
+    (found, compared.finish())
 }
 
 /// Every coil whose conditions fit the budget, with its activation and its

@@ -6,10 +6,10 @@
 //! and the activation of F share a variable and can hold together*. That is
 //! one conjunction of two diagrams.
 
-use std::collections::HashSet;
-
 use logic::{AtomId, Budget, Function};
+use rustc_hash::FxHashSet;
 
+use super::compared::Compared;
 use super::handover::Handover;
 use super::shared::{ByAtom, COMMON};
 use super::{Evidence, Kind, MOST_PAIRS, Succession, coils, name};
@@ -53,12 +53,14 @@ pub fn possible(conditions: &Conditions, budget: &Budget) -> Vec<Succession> {
 pub(super) fn among_states(
     states: &States,
     handovers: &[Handover],
+    compared: &mut Compared<'_>,
     budget: &Budget,
 ) -> Vec<(AtomId, AtomId, Option<Function>)> {
-    let known: HashSet<(AtomId, AtomId)> = handovers.iter().map(|h| (h.from, h.to)).collect();
+    let known: FxHashSet<(AtomId, AtomId)> = handovers.iter().map(|h| (h.from, h.to)).collect();
     let comparable: Vec<&State> = states
         .states
         .iter()
+        .map(|state| &**state)
         .filter(|state| state.is_comparable())
         .collect();
     let starts = ByAtom::new(comparable.iter().map(|state| &state.next));
@@ -72,10 +74,12 @@ pub(super) fn among_states(
             if from.atom == to.atom || known.contains(&(from.atom, to.atom)) {
                 continue;
             }
-            if let Ok(both) = from.deactivation.and(&to.next, budget)
-                && !both.is_false()
-            {
-                found.push((from.atom, to.atom, Some(both)));
+            let both = compared.possible(from, to, || {
+                let both = from.deactivation.and(&to.next, budget).ok();
+                both.filter(|both| !both.is_false())
+            });
+            if both.is_some() {
+                found.push((from.atom, to.atom, both));
             }
         }
     }

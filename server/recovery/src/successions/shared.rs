@@ -1,8 +1,9 @@
 //! Which pairs of conditions are worth comparing.
 
-use std::collections::{BTreeSet, HashMap};
+use std::collections::BTreeSet;
 
 use logic::{AtomId, Function};
+use rustc_hash::FxHashMap;
 
 /// An atom that more conditions than this depend on does not tell them apart:
 /// every pair shares it.
@@ -11,13 +12,13 @@ pub(super) const COMMON: usize = 40;
 /// An index of functions by the atoms they depend on.
 #[derive(Debug, Default)]
 pub(super) struct ByAtom {
-    users: HashMap<AtomId, Vec<usize>>,
+    users: FxHashMap<AtomId, Vec<usize>>,
 }
 
 impl ByAtom {
     /// Indexes functions by their place in the iteration.
     pub(super) fn new<'f>(functions: impl IntoIterator<Item = &'f Function>) -> Self {
-        let mut users: HashMap<AtomId, Vec<usize>> = HashMap::new();
+        let mut users: FxHashMap<AtomId, Vec<usize>> = FxHashMap::default();
         for (at, function) in functions.into_iter().enumerate() {
             for atom in function.support() {
                 users.entry(*atom).or_default().push(at);
@@ -52,31 +53,31 @@ impl ByAtom {
 /// all that starts and a positive one of all that ends, joins no pair.
 #[derive(Debug, Default)]
 pub(super) struct ByLiteral {
-    users: HashMap<(AtomId, bool), Vec<usize>>,
+    users: FxHashMap<(AtomId, bool), Vec<usize>>,
 }
 
 impl ByLiteral {
-    /// Indexes functions by their place in the iteration.
-    pub(super) fn new<'f>(functions: impl IntoIterator<Item = &'f Function>) -> Self {
-        let mut users: HashMap<(AtomId, bool), Vec<usize>> = HashMap::new();
-        for (at, function) in functions.into_iter().enumerate() {
-            for literal in literals(function) {
-                users.entry(literal).or_default().push(at);
+    /// Indexes functions, given by their literals, by their place in the
+    /// iteration.
+    pub(super) fn new<'f>(functions: impl IntoIterator<Item = &'f [(AtomId, bool)]>) -> Self {
+        let mut users: FxHashMap<(AtomId, bool), Vec<usize>> = FxHashMap::default();
+        for (at, literals) in functions.into_iter().enumerate() {
+            for literal in literals {
+                users.entry(*literal).or_default().push(at);
             }
         }
         Self { users }
     }
 
-    /// Places of the functions that share a literal with `function`, not
-    /// counting literals that are [common](COMMON).
-    pub(super) fn sharing(&self, function: &Function) -> BTreeSet<usize> {
-        literals(function)
-            .into_iter()
-            .filter_map(|literal| self.users.get(&literal))
+    /// Places of the functions that have one of `literals`, not counting those
+    /// that are [common](COMMON); a place as often as they share one.
+    pub(super) fn sharing(&self, literals: &[(AtomId, bool)]) -> impl Iterator<Item = usize> {
+        literals
+            .iter()
+            .filter_map(|literal| self.users.get(literal))
             .filter(|users| users.len() <= COMMON)
             .flatten()
             .copied()
-            .collect()
     }
 
     /// The atoms of all common literals.
@@ -90,7 +91,9 @@ impl ByLiteral {
 /// know them would cost more than comparing a few pairs for nothing.
 const LARGE: usize = 300;
 
-fn literals(function: &Function) -> Vec<(AtomId, bool)> {
+/// The literals by which a function depends on its atoms; both of an atom where
+/// that would take long to tell.
+pub(super) fn literals(function: &Function) -> Vec<(AtomId, bool)> {
     if function.nodes() > LARGE {
         let atoms = function.support().iter();
         return atoms

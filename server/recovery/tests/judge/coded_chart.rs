@@ -155,7 +155,7 @@ fn handovers_are_the_transitions_of_the_chart_and_no_others() {
     assert_eq!(expected.len(), 22);
 
     let found: Vec<_> = analysis
-        .successions
+        .successions()
         .iter()
         .filter(|it| it.evidence != Evidence::Possible)
         .collect();
@@ -183,8 +183,8 @@ fn the_group_of_its_steps_is_a_sequence() {
     let Some(text) = text() else { return };
     let program = program(&text);
     let analysis = analyse(&program, &Budget::default());
-    let [group] = &analysis.groups[..] else {
-        panic!("one group: {:?}", analysis.groups);
+    let [group] = analysis.groups() else {
+        panic!("one group: {:?}", analysis.groups());
     };
     assert!(group.sequence, "{}", group.reason);
     assert_eq!(group.states.len(), 20);

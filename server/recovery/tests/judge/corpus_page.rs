@@ -101,7 +101,7 @@ fn acts(kind: &ElementKind) -> bool {
 }
 
 fn sequences(analysis: &Analysis) -> impl Iterator<Item = &Group> {
-    analysis.groups.iter().filter(|group| group.sequence)
+    analysis.groups().iter().filter(|group| group.sequence)
 }
 
 fn counts(file: &RealFile, analysis: &Analysis) -> Counts {
@@ -119,7 +119,7 @@ fn counts(file: &RealFile, analysis: &Analysis) -> Counts {
         coils: elements
             .filter(|(_, element)| matches!(element.kind, ElementKind::Coil(_)))
             .count(),
-        states: analysis.states.states.len(),
+        states: analysis.states().states.len(),
         registers: analysis.registers.len(),
         sequences: sequences(analysis).count(),
     }

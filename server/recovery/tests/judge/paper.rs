@@ -175,7 +175,7 @@ fn nine_pairs_are_handovers_and_every_other_is_merely_possible() {
     for program in programs() {
         let analysis = analyse(&program, &Budget::default());
         let (handovers, others): (Vec<_>, Vec<_>) = analysis
-            .successions
+            .successions()
             .iter()
             .partition(|it| it.evidence == Evidence::Handover);
         assert_eq!(handovers.len(), 9);

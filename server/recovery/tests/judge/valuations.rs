@@ -188,7 +188,16 @@ impl<'n> Judged<'n> {
         let literals: Vec<String> = self
             .atoms
             .iter()
-            .map(|(id, atom)| format!("{}{atom}", if values[self.atoms.place(id)] { "" } else { "/" }))
+            .map(|(id, atom)| {
+                format!(
+                    "{}{atom}",
+                    if values[self.atoms.place(id)] {
+                        ""
+                    } else {
+                        "/"
+                    }
+                )
+            })
             .collect();
         literals.join(" ")
     }

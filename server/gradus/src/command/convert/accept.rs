@@ -105,7 +105,7 @@ pub fn apply(
                     .map(|name| named::state(name, analysis))
                     .collect::<Result<_, _>>()?;
                 check_values(&from, &to, analysis)?;
-                if analysis.states.find(&from).is_some() {
+                if analysis.states().find(&from).is_some() {
                     decide::accept(&mut decisions, &from, &to);
                 } else {
                     decide::take_rejection_back(&mut decisions, &from, &to);
@@ -119,7 +119,7 @@ pub fn apply(
 /// The values of a register follow each other as its writes say, and nothing
 /// else can be decided about them.
 fn check_values(from: &Name, to: &[Name], analysis: &Analysis) -> Result<(), String> {
-    let is_value = |name: &Name| analysis.states.find(name).is_none();
+    let is_value = |name: &Name| analysis.states().find(name).is_none();
     for to in to {
         if from == to {
             return Err(format!("`{}` cannot follow itself", printable(from)));
@@ -127,7 +127,7 @@ fn check_values(from: &Name, to: &[Name], analysis: &Analysis) -> Result<(), Str
         if !is_value(from) && !is_value(to) {
             continue;
         }
-        let mut successions = analysis.successions.iter();
+        let mut successions = analysis.successions().iter();
         if !successions.any(|it| it.from == *from && it.to == *to) {
             return Err(format!(
                 "no write leads from `{}` to `{}`, so the one cannot follow the other",

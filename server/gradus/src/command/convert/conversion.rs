@@ -99,7 +99,7 @@ impl<'a> Conversion<'a> {
                 _ => Vec::new(),
             })
             .collect();
-        let all = self.analysis.successions.iter();
+        let all = self.analysis.successions().iter();
         all.filter(|it| it.evidence != Evidence::Written)
             .filter(|it| !decided.contains(&(&it.from, &it.to)))
             .collect()
@@ -113,7 +113,7 @@ impl<'a> Conversion<'a> {
 
     /// What ends a state; `None` if it is too long.
     pub fn ends_on(&self, state: &Name) -> Option<String> {
-        let state = self.analysis.states.find(state)?;
+        let state = self.analysis.states().find(state)?;
         legible(&state.deactivation, &self.analysis.conditions, self.budget)
     }
 }

@@ -123,7 +123,7 @@ pub fn hold(conversion: &mut Conversion<'_>, io: &mut Io) -> std::io::Result<Sta
 /// The next suggestion to ask about: states in the order of the ladder, for
 /// each the best first.
 fn next<'a>(conversion: &Conversion<'a>, later: &BTreeSet<(Name, Name)>) -> Option<&'a Succession> {
-    let states = &conversion.analysis.states;
+    let states = &conversion.analysis.states();
     let is_now = |it: &&Succession| !later.contains(&(it.from.clone(), it.to.clone()));
     let place = |it: &&Succession| {
         states
@@ -238,7 +238,7 @@ fn usual_company(succession: &Succession, conversion: &Conversion<'_>) -> Vec<Na
                 if *from == succession.from && rejected == to)
         })
     };
-    let all = conversion.analysis.successions.iter();
+    let all = conversion.analysis.successions().iter();
     all.filter(|it| it.kind == Kind::And && it.evidence == succession.evidence)
         .filter(|it| it.from == succession.from && it.to != succession.to)
         .map(|it| it.to.clone())

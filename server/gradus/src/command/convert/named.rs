@@ -10,7 +10,7 @@ use crate::report::printable;
 /// The state that somebody calls `text`: by its name, or by its address. The
 /// error names some that there are.
 pub fn state(text: &str, analysis: &Analysis) -> Result<Name, String> {
-    if let Some(state) = analysis.states.find(text) {
+    if let Some(state) = analysis.states().find(text) {
         return Ok(state.name.clone());
     }
     if let Some(value) = value(text, analysis) {
@@ -18,7 +18,7 @@ pub fn state(text: &str, analysis: &Analysis) -> Result<Name, String> {
     }
     let mut declarations = analysis.program.declarations.iter();
     let of_address = declarations.find(|it| it.address.as_deref() == Some(text));
-    if let Some(state) = of_address.and_then(|it| analysis.states.find(&it.name)) {
+    if let Some(state) = of_address.and_then(|it| analysis.states().find(&it.name)) {
         return Ok(state.name.clone());
     }
     let known: Vec<&str> = names(analysis).take(8).collect();
@@ -37,7 +37,7 @@ pub fn state(text: &str, analysis: &Analysis) -> Result<Name, String> {
 }
 
 fn names(analysis: &Analysis) -> impl Iterator<Item = &str> {
-    let groups = analysis.groups.iter();
+    let groups = analysis.groups().iter();
     groups.flat_map(|group| group.states.iter().map(|name| &**name))
 }
 
@@ -64,7 +64,7 @@ pub fn start_in(
     let mut states = Vec::new();
     for text in names {
         let name = state(text, analysis)?;
-        if analysis.states.find(&name).is_none() {
+        if analysis.states().find(&name).is_none() {
             return Err(format!(
                 "`{}` cannot be made initial: where a step register starts is what the ladder \
                  moves into it",

@@ -66,7 +66,7 @@ impl<'a> Outcome<'a> {
         let tied = tied(conversion);
         let drawn: BTreeSet<&Name> = grafcet.steps().filter_map(|it| it.state.as_ref()).collect();
         let those = |is_tied: bool, is_drawn: bool| {
-            let states = conversion.analysis.states.states.iter();
+            let states = conversion.analysis.states().states.iter();
             states
                 .map(|state| &state.name)
                 .filter(|name| tied.contains(name) == is_tied && drawn.contains(name) == is_drawn)
@@ -81,7 +81,7 @@ impl<'a> Outcome<'a> {
             steps: grafcet.steps().count(),
             transitions: grafcet.transitions().count(),
             actions: grafcet.actions().count(),
-            verdict: groups::verdict(&conversion.analysis.groups),
+            verdict: groups::verdict(conversion.analysis.groups()),
         }
     }
 }
@@ -98,7 +98,7 @@ fn states<'a>(conversion: &Conversion<'a>) -> Vec<OfState<'a>> {
         open: Vec::new(),
         rejected: Vec::new(),
     };
-    for succession in &analysis.successions {
+    for succession in analysis.successions() {
         if succession.evidence == Evidence::Written {
             let from = &succession.from;
             let state = states.entry(from).or_insert_with(|| empty(from));
@@ -143,7 +143,7 @@ fn states<'a>(conversion: &Conversion<'a>) -> Vec<OfState<'a>> {
 /// The order of the states: bits as the ladder has them, then registers.
 fn places(conversion: &Conversion<'_>) -> BTreeMap<Name, usize> {
     let analysis = conversion.analysis;
-    let bits = analysis.states.states.iter().map(|it| it.name.clone());
+    let bits = analysis.states().states.iter().map(|it| it.name.clone());
     let values = analysis.registers.iter().flat_map(|register| {
         let states = register.states.iter();
         states.map(|state| register.state_name(state.value))

@@ -11,9 +11,9 @@ use ide::legible;
 
 /// All that was found, in one document.
 pub fn json(found: &Found<'_>, budget: &Budget) -> Value {
-    let (sequence, reason) = groups::verdict(&found.analysis.groups);
+    let (sequence, reason) = groups::verdict(found.analysis.groups());
     let suggestions = found.suggestions.iter();
-    let groups = found.analysis.groups.iter();
+    let groups = found.analysis.groups().iter();
     value!({
         "states": names(&found.states),
         "suggestions": suggestions

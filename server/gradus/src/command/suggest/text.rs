@@ -44,7 +44,7 @@ impl<'f> ByState<'f> {
 
 /// Every group of dependent rungs: its sequence, or why there is none.
 pub fn by_group(found: &Found<'_>, budget: &Budget, paint: Paint) -> String {
-    let groups = &found.analysis.groups;
+    let groups = found.analysis.groups();
     let by_state = ByState::new(found, budget);
     let mut out = String::new();
     if groups.is_empty() {
@@ -84,7 +84,7 @@ pub fn by_coil(found: &Found<'_>, budget: &Budget, paint: Paint) -> String {
     }
     out += &format!("{}\n", numbered(found.suggestions.len(), "suggestion"));
     if found.suggestions.is_empty() {
-        out += &no_sequence_anywhere(&found.analysis.groups, paint);
+        out += &no_sequence_anywhere(found.analysis.groups(), paint);
     }
     out
 }

@@ -59,7 +59,7 @@ impl Builder<'_> {
     }
 
     fn handed_over(&self, from: &State, to: &State) -> Option<Function> {
-        let (states, conditions) = (&self.analysis.states, &self.analysis.conditions);
+        let (states, conditions) = (&self.analysis.states(), &self.analysis.conditions);
         handed_over(from, to, states, conditions, self.budget)
     }
 

@@ -56,7 +56,7 @@ impl<'b> Builder<'b> {
 
     /// The state of a member; members were found among the states.
     pub(super) fn state(&self, atom: AtomId) -> Option<&'b State> {
-        self.analysis.states.state(atom)
+        self.analysis.states().state(atom)
     }
 
     pub(super) fn name(&self, atom: AtomId) -> &'b str {

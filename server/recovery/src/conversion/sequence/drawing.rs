@@ -15,7 +15,7 @@ impl Plan {
         chart: &mut Chart,
     ) {
         for step in &self.steps {
-            let state = step.state.and_then(|atom| analysis.states.state(atom));
+            let state = step.state.and_then(|atom| analysis.states().state(atom));
             chart.steps.push(Step {
                 initial: step.initial,
                 state: state.map(|state| state.name.clone()),
