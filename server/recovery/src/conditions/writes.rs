@@ -232,7 +232,7 @@ impl Collector<'_> {
                         rung: at,
                         element: element.index(),
                     },
-                    span: node.span,
+                    span: solving.rung.place(node.within),
                     closed_contacts: upstream.closed_contacts,
                     effective,
                 };
