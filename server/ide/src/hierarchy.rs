@@ -161,8 +161,8 @@ fn state(ladder: &Ladder, name: &Name, detail: Option<String>) -> Option<Item> {
         Some(_) => {
             let mut mentions = ladder.names().of(name);
             let coil = mentions.find(|it| it.usage == Usage::Written)?;
-            let element = crate::element(ladder.program(), coil.place?)?;
-            Target::new(Side::Ladder, element.span, coil.span)
+            let (rung, element) = crate::element(ladder.program(), coil.place?)?;
+            Target::new(Side::Ladder, rung.place(element.within), coil.span)
         }
         None => value(ladder, name)?,
     };

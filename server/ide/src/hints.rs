@@ -47,7 +47,8 @@ pub fn hints_in_ladder(ladder: &Ladder, span: Span, budget: &Budget) -> Vec<Hint
             }
         }
         for (_, element) in rung.network.elements() {
-            if element.span.end < span.start || span.end < element.span.start {
+            let whole = rung.place(element.within);
+            if whole.end < span.start || span.end < whole.start {
                 continue;
             }
             let found = match &element.kind {
@@ -57,14 +58,14 @@ pub fn hints_in_ladder(ladder: &Ladder, span: Span, budget: &Budget) -> Vec<Hint
                 {
                     let name = &contact.operand.name;
                     Some(Hint {
-                        offset: element.span.range().end,
+                        offset: whole.range().end,
                         text: "interlock".to_owned(),
                         detail: format!("keeps the coil off while {name} is on"),
                     })
                 }
                 ElementKind::Coil(coil) => {
                     let variable = analysis.conditions.find(&coil.operand.name);
-                    variable.and_then(|it| of_coil(ladder, it, coil.kind, element.span, budget))
+                    variable.and_then(|it| of_coil(ladder, it, coil.kind, whole, budget))
                 }
                 _ => None,
             };

@@ -5,7 +5,7 @@
 
 use std::collections::HashMap;
 
-use ::ladder::{Declaration, Program};
+use ::ladder::{Declaration, Element, Program, Rung};
 use logic::Name;
 use petgraph::graph::NodeIndex;
 use recovery::conditions::Place;
@@ -59,15 +59,15 @@ impl Names {
             });
         }
         for (at, routine) in program.routines.iter().enumerate() {
-            for (rung, it) in routine.rungs.iter().enumerate() {
-                for (element, it) in it.network.elements().skip(1) {
+            for (rung, within) in routine.rungs.iter().enumerate() {
+                for (element, it) in within.network.elements().skip(1) {
                     let place = Place {
                         routine: at,
                         rung,
                         element: element.index(),
                     };
-                    names.elements.push((it.span, place));
-                    names.add_operands(&it.kind, place);
+                    names.elements.push((within.place(it.within), place));
+                    names.add_operands(within, &it.kind, place);
                 }
             }
         }
@@ -75,13 +75,13 @@ impl Names {
         names
     }
 
-    fn add_operands(&mut self, kind: &::ladder::ElementKind, place: Place) {
+    fn add_operands(&mut self, rung: &Rung, kind: &::ladder::ElementKind, place: Place) {
         let reads = kind.reads().into_iter().map(|it| (it, Usage::Read));
         let writes = kind.writes().into_iter().map(|it| (it, Usage::Written));
         for (operand, usage) in reads.chain(writes) {
             self.mentions.push(Mention {
                 name: operand.name.clone(),
-                span: operand.span,
+                span: rung.place(operand.within),
                 usage,
                 place: Some(place),
             });
@@ -168,11 +168,11 @@ pub(crate) fn word(text: &str, word: &str) -> Option<usize> {
     })
 }
 
-/// The element at a place of a program.
-pub fn element(program: &Program, place: Place) -> Option<&::ladder::Element> {
+/// The element at a place of a program, with its rung.
+pub fn element(program: &Program, place: Place) -> Option<(&Rung, &Element)> {
     let rung = program.routines.get(place.routine)?.rungs.get(place.rung)?;
     let exists = place.element < rung.network.len();
-    exists.then(|| rung.network.element(NodeIndex::new(place.element)))
+    exists.then(|| (rung, rung.network.element(NodeIndex::new(place.element))))
 }
 
 #[cfg(test)]
@@ -217,8 +217,8 @@ mod tests {
         let names = Names::new(&reading.program, text);
         let found = |part: &str| {
             let place = names.element_at(text.find(part).expect("in the text"))?;
-            let element = element(&reading.program, place)?;
-            Some(&text[element.span.range()])
+            let (rung, element) = element(&reading.program, place)?;
+            Some(&text[rung.place(element.within).range()])
         };
         assert_eq!(found("b)"), Some("b"));
         assert_eq!(found("t1"), Some("TON(t1, 5s)"));

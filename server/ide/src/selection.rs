@@ -13,9 +13,9 @@ pub fn selections_in_ladder(ladder: &Ladder, offset: usize) -> Vec<Span> {
     let program = ladder.program();
     spans.extend(ladder.names().at(offset).map(|it| it.span));
     if let Some(place) = ladder.names().element_at(offset)
-        && let Some(element) = crate::element(program, place)
+        && let Some((rung, element)) = crate::element(program, place)
     {
-        spans.push(element.span);
+        spans.push(rung.place(element.within));
     }
     if let Some(place) = ladder.rung_at(offset)
         && let Some((routine, rung)) = ladder.rung(place)

@@ -209,7 +209,7 @@ fn opaque(ladder: &Ladder) -> HashSet<&Name> {
         let element = mention
             .place
             .and_then(|place| element(ladder.program(), place));
-        let by_unknown = element.is_some_and(|it| match &it.kind {
+        let by_unknown = element.is_some_and(|(_, it)| match &it.kind {
             ElementKind::Block(block) => block.familiarity == Familiarity::Unknown,
             _ => false,
         });
@@ -234,7 +234,7 @@ fn of_mention(ladder: &Ladder, mention: &Mention, opaque: &HashSet<&Name>) -> Op
     let at = mention
         .place
         .and_then(|place| element(ladder.program(), place));
-    let kind = match at.map(|it| &it.kind) {
+    let kind = match at.map(|(_, it)| &it.kind) {
         Some(ElementKind::Contact(_)) => TokenKind::Contact,
         Some(ElementKind::Coil(_)) => TokenKind::Coil,
         _ => TokenKind::Variable,
@@ -272,7 +272,7 @@ fn is_interlock(ladder: &Ladder, mention: &Mention) -> bool {
     let Some(place) = mention.place else {
         return false;
     };
-    let is_closed = element(ladder.program(), place).is_some_and(|it| match &it.kind {
+    let is_closed = element(ladder.program(), place).is_some_and(|(_, it)| match &it.kind {
         ElementKind::Contact(contact) => contact.kind == ContactKind::Closed,
         _ => false,
     });
@@ -297,28 +297,30 @@ fn of_rung<'l>(ladder: &'l Ladder, rung: &'l Rung) -> impl Iterator<Item = Token
             kind,
             marks: Marks::default(),
         };
+        let whole = rung.place(element.within);
         match &element.kind {
-            ElementKind::Call(call) => Some(token(call.routine.span, TokenKind::Function)),
-            ElementKind::Jump(label) => Some(token(label.span, TokenKind::Label)),
-            ElementKind::Label(label) => {
-                Some(plain(label.span, TokenKind::Label, Mark::Declaration))
+            ElementKind::Call(call) => {
+                Some(token(rung.place(call.routine.within), TokenKind::Function))
             }
+            ElementKind::Jump(label) => Some(token(rung.place(label.within), TokenKind::Label)),
+            ElementKind::Label(label) => Some(plain(
+                rung.place(label.within),
+                TokenKind::Label,
+                Mark::Declaration,
+            )),
             ElementKind::Block(block) => {
-                let token = token(
-                    named_in(ladder, element.span, &block.name)?,
-                    TokenKind::Function,
-                );
+                let token = token(named_in(ladder, whole, &block.name)?, TokenKind::Function);
                 Some(Token {
                     marks: of_block(block),
                     ..token
                 })
             }
             ElementKind::Timer(_) | ElementKind::Counter(_) | ElementKind::ResetBox(_) => {
-                let text = ladder.text.get(element.span.range())?;
+                let text = ladder.text.get(whole.range())?;
                 let end = text.find('(')?;
                 let name = text[..end].trim_end();
                 let is_name = !name.is_empty() && name.chars().all(char::is_alphanumeric);
-                let start = element.span.range().start;
+                let start = whole.range().start;
                 is_name.then(|| token(Span::new(start, start + name.len()), TokenKind::Function))
             }
             _ => None,

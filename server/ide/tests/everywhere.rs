@@ -53,7 +53,7 @@ fn ladders_answer_everywhere() {
             }
             signature(&ladder, offset);
         }
-        let mut names: Vec<_> = ladder.names.all().iter().collect();
+        let mut names: Vec<_> = ladder.names().all().iter().collect();
         names.dedup_by(|a, b| a.name == b.name);
         for mention in names.iter().step_by(1 + names.len() / 20) {
             let offset = mention.span.range().start;
@@ -105,8 +105,8 @@ fn what_is_cut_or_holds_odd_characters_answers_too() {
                 lay_out_ladder(&ladder, Extent::Statements(Span::new(offset / 2, offset)));
                 lay_out_spec(&spec, Extent::Line(offset));
             }
-            let names = ladder.names.all().iter();
-            for mention in names.step_by(1 + ladder.names.all().len() / 5) {
+            let names = ladder.names().all().iter();
+            for mention in names.step_by(1 + ladder.names().all().len() / 5) {
                 let offset = mention.span.range().start;
                 rename_in_ladder(&ladder, None, offset, NEW, &budget);
             }

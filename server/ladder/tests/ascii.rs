@@ -18,7 +18,7 @@ fn shown(drawing: &str, rung: &Rung) -> String {
     let network = &rung.network;
     let name = |at: petgraph::graph::NodeIndex| match at == Network::rail() {
         true => "rail".to_owned(),
-        false => element(drawing, network, at),
+        false => element(drawing, rung, at),
     };
     let elements = network.elements().skip(1).map(|(at, _)| {
         let sources: Vec<String> = network
@@ -34,23 +34,23 @@ fn shown(drawing: &str, rung: &Rung) -> String {
     elements.collect::<Vec<_>>().join("; ")
 }
 
-fn element(drawing: &str, network: &Network, at: petgraph::graph::NodeIndex) -> String {
-    let element = network.element(at);
-    let text = |span: source::Span| &drawing[span.range()];
+fn element(drawing: &str, rung: &Rung, at: petgraph::graph::NodeIndex) -> String {
+    let element = rung.network.element(at);
+    let text = |within| &drawing[rung.place(within).range()];
     match &element.kind {
         ElementKind::Contact(contact) => {
-            format!("{}{}", text(element.span), text(contact.operand.span))
+            format!("{}{}", text(element.within), text(contact.operand.within))
         }
-        ElementKind::Coil(coil) => format!("{}{}", text(element.span), text(coil.operand.span)),
+        ElementKind::Coil(coil) => format!("{}{}", text(element.within), text(coil.operand.within)),
         ElementKind::Comparison(comparison) => format!(
             "{}{}{}",
-            text(comparison.left.span),
-            text(element.span),
-            text(comparison.right.span)
+            text(comparison.left.within),
+            text(element.within),
+            text(comparison.right.within)
         ),
-        ElementKind::Jump(label) => format!(">>{}", text(label.span)),
-        ElementKind::Label(label) => format!("{}:", text(label.span)),
-        ElementKind::Timer(timer) => format!("{:?} {}", timer.kind, text(timer.instance.span)),
+        ElementKind::Jump(label) => format!(">>{}", text(label.within)),
+        ElementKind::Label(label) => format!("{}:", text(label.within)),
+        ElementKind::Timer(timer) => format!("{:?} {}", timer.kind, text(timer.instance.within)),
         ElementKind::Block(block) => format!("block {}", block.name),
         ElementKind::Gate(gate) => format!("{gate:?}"),
         ElementKind::Return { .. } => "return".to_owned(),
@@ -172,11 +172,12 @@ fn a_timer_is_a_box_whose_output_feeds_the_rung() {
         &[],
     );
     let reading = read(drawing);
-    let network = &reading.program.routines[0].rungs[0].network;
-    let timer = network
+    let rung = &reading.program.routines[0].rungs[0];
+    let timer = rung
+        .network
         .elements()
         .find_map(|(_, element)| match &element.kind {
-            ElementKind::Timer(timer) => Some((timer, element.span)),
+            ElementKind::Timer(timer) => Some((timer, rung.place(element.within))),
             _ => None,
         });
     let (timer, span) = timer.unwrap();
@@ -430,7 +431,7 @@ mod any_text {
             for (_, rung) in reading.program.rungs() {
                 prop_assert!(text.get(rung.span.range()).is_some());
                 for (_, element) in rung.network.elements() {
-                    prop_assert!(text.get(element.span.range()).is_some());
+                    prop_assert!(text.get(rung.place(element.within).range()).is_some());
                     prop_assert!(rung.network.len() <= 4 * text.len());
                 }
             }

@@ -504,7 +504,7 @@ fn box_with_pins(kind: ElementKind, pins: &[&str], output: &str) -> Program {
     };
     assert!(builder.join(place, coil, wire));
     let mut program = rungs("OTE(x)");
-    program.routines[0].rungs[0].network = builder.finish();
+    program.routines[0].rungs[0].network = builder.finish().network;
     program
 }
 
@@ -571,7 +571,7 @@ fn a_pin_hands_over_the_complement_or_an_edge_only() {
         assert!(builder.join(contact, coil, wire));
     }
     let mut program = rungs("OTE(x)");
-    program.routines[0].rungs[0].network = builder.finish();
+    program.routines[0].rungs[0].network = builder.finish().network;
     check_program(
         &program,
         ". a . . /a . .",

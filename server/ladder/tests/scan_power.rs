@@ -4,6 +4,7 @@
 mod scan_rungs;
 
 use std::collections::HashMap;
+use std::sync::Arc;
 
 use ladder::flow::{Guard, Order, Place, Visit, execution};
 use ladder::scan::{Machine, power};
@@ -93,17 +94,17 @@ fn draw(shape: &Shape, builder: &mut NetworkBuilder, ends: Vec<NodeIndex>) -> Ve
     }
 }
 
-fn series_parallel() -> impl Strategy<Value = Network> {
+fn series_parallel() -> impl Strategy<Value = Arc<Network>> {
     shape().prop_map(|shape| {
         let mut builder = NetworkBuilder::new(Span::default());
         draw(&shape, &mut builder, vec![Network::rail()]);
-        builder.finish()
+        builder.finish().network
     })
 }
 
 /// Elements joined at random from earlier to later ones: bridges, contacts
 /// without a source, several wires between the same two.
-fn bridged(element: impl Strategy<Value = ElementKind>) -> impl Strategy<Value = Network> {
+fn bridged(element: impl Strategy<Value = ElementKind>) -> impl Strategy<Value = Arc<Network>> {
     let sources = prop::collection::vec(any::<prop::sample::Index>(), 0..4);
     prop::collection::vec((element, sources), 0..16).prop_map(|elements| {
         let mut builder = NetworkBuilder::new(Span::default());
@@ -124,7 +125,7 @@ fn bridged(element: impl Strategy<Value = ElementKind>) -> impl Strategy<Value =
                 assert!(builder.join(NodeIndex::new(source.index(earlier)), element, wire));
             }
         }
-        builder.finish()
+        builder.finish().network
     })
 }
 
@@ -162,7 +163,7 @@ fn check_paths(network: &Network, values: &HashMap<&str, bool>) {
 }
 
 /// A program of one routine whose rungs have these networks.
-fn with_networks(networks: Vec<Network>) -> Program {
+fn with_networks(networks: Vec<Arc<Network>>) -> Program {
     let lines = vec!["OTE(x)"; networks.len()].join("\n");
     let mut program = rungs(&lines);
     for (rung, network) in program.routines[0].rungs.iter_mut().zip(networks) {
@@ -271,7 +272,7 @@ proptest! {
             let coil = ElementKind::Coil(Coil { operand, kind: CoilKind::Plain });
             builder.add_after(&[*at], coil, Span::default());
         }
-        let program = with_networks(vec![builder.finish()]);
+        let program = with_networks(vec![builder.finish().network]);
         let mut machine = Machine::new(&program);
         for (name, value) in &values {
             machine.set_input(name, *value);

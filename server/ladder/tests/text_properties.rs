@@ -182,7 +182,7 @@ proptest! {
     fn every_place_lies_in_the_text(text in texts()) {
         let reading = ladder::read(text.as_bytes());
         let rungs = reading.program.rungs();
-        let elements = rungs.flat_map(|(_, rung)| places(&rung.network));
+        let elements = rungs.flat_map(|(_, rung)| places(rung));
         let findings = reading.diagnostics.iter().map(|finding| finding.span);
         for place in elements.chain(findings) {
             prop_assert!(text.get(place.range()).is_some(), "{:?} of {}", place, text.len());
@@ -195,10 +195,11 @@ proptest! {
         let program = program(&text);
         let (_, rung) = program.rungs().next().expect("a rung");
         for (_, element) in rung.network.elements() {
+            let whole = rung.place(element.within);
             for operand in element.kind.reads().into_iter().chain(element.kind.writes()) {
-                let written = &text[operand.span.range()];
+                let written = &text[rung.place(operand.within).range()];
                 prop_assert_eq!(written, notation::quoted(&operand.name));
-                prop_assert!(element.span.cover(operand.span) == element.span);
+                prop_assert!(whole.cover(rung.place(operand.within)) == whole);
             }
         }
     }

@@ -351,7 +351,7 @@ fn places_count_the_byte_order_mark() {
     let places: Vec<_> = rung
         .network
         .elements()
-        .map(|(_, element)| &text[element.span.range()])
+        .map(|(_, element)| &text[rung.place(element.within).range()])
         .collect();
     assert_eq!(places, ["", "größe", "v1"]);
     assert!(network_said(&rung.network).contains("größe"));

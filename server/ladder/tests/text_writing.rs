@@ -6,7 +6,7 @@ mod text;
 use ladder::text::write;
 use ladder::{
     Coil, CoilKind, Contact, ContactKind, ElementKind, Format, Network, NetworkBuilder, Operand,
-    Program, Role, Routine, Rung,
+    Placed, Program, Role, Routine, Rung,
 };
 use petgraph::graph::NodeIndex;
 use source::Span;
@@ -105,19 +105,14 @@ fn every_output_of_every_fixture_keeps_its_condition() {
 }
 
 /// A program with one rung.
-fn with_rung(network: Network) -> Program {
+fn with_rung(drawn: Placed) -> Program {
     let mut program = Program::empty(Format::Unknown);
     program.routines.push(Routine {
         scope: "P".into(),
         unit: "P".into(),
         name: "P".into(),
         role: Role::Main,
-        rungs: vec![Rung {
-            number: 0,
-            comment: None,
-            network,
-            span: Span::default(),
-        }],
+        rungs: vec![Rung::new(0, None, drawn, Span::default())],
         span: Span::default(),
     });
     program
@@ -140,8 +135,8 @@ fn coil(builder: &mut NetworkBuilder, feeds: &[NodeIndex], name: &str) -> NodeIn
 }
 
 #[track_caller]
-fn written(network: Network) -> (String, Vec<String>) {
-    let written = write(&with_rung(network));
+fn written(drawn: Placed) -> (String, Vec<String>) {
+    let written = write(&with_rung(drawn));
     let rungs: Vec<_> = written.text.lines().skip(2).collect();
     let lost = written.lost.into_iter().map(|lost| lost.what).collect();
     (rungs.join("\n"), lost)
@@ -240,7 +235,7 @@ mod random {
 
     /// A network of contacts in which each is fed by any of the three before
     /// it, so that bridges are common, and one coil.
-    fn networks() -> impl Strategy<Value = Network> {
+    fn networks() -> impl Strategy<Value = Placed> {
         let element = (0..4_usize, prop::collection::vec(0..4_usize, 1..3));
         prop::collection::vec(element, 1..8).prop_map(|elements| {
             let mut builder = NetworkBuilder::new(Span::default());
@@ -262,8 +257,8 @@ mod random {
 
     proptest! {
         #[test]
-        fn the_text_powers_the_coil_exactly_when_the_network_does(network in networks()) {
-            let (text, _) = written(network.clone());
+        fn the_text_powers_the_coil_exactly_when_the_network_does(drawn in networks()) {
+            let (text, _) = written(drawn.clone());
             let read = program(&text);
             let (_, rung) = read.rungs().next().expect("a rung");
             for row in 0..16_u32 {
@@ -272,7 +267,7 @@ mod random {
                 };
                 prop_assert_eq!(
                     drives_coil(&rung.network, &is_on),
-                    drives_coil(&network, &is_on),
+                    drives_coil(&drawn.network, &is_on),
                     "{} in row {}", text, row
                 );
             }

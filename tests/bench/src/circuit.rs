@@ -5,7 +5,7 @@
 
 use std::collections::HashMap;
 
-use ladder::{ContactKind, Element, ElementKind, Network, Program};
+use ladder::{ContactKind, Element, ElementKind, Network, Program, Rung};
 use logic::Name;
 
 /// One operation. Numbers are places of earlier steps.
@@ -49,7 +49,7 @@ pub fn circuits(program: &Program) -> Circuits {
     let mut numbers: HashMap<Name, u32> = HashMap::new();
     let rungs = program
         .rungs()
-        .map(|(_, rung)| circuit(&rung.network, &mut numbers))
+        .map(|(_, rung)| circuit(rung, &mut numbers))
         .collect();
     Circuits {
         rungs,
@@ -57,7 +57,8 @@ pub fn circuits(program: &Program) -> Circuits {
     }
 }
 
-fn circuit(network: &Network, numbers: &mut HashMap<Name, u32>) -> Circuit {
+fn circuit(rung: &Rung, numbers: &mut HashMap<Name, u32>) -> Circuit {
+    let network = &rung.network;
     let mut circuit = Circuit::default();
     let mut leaving: Vec<usize> = Vec::with_capacity(network.len());
     for (at, element) in network.elements() {
@@ -79,7 +80,7 @@ fn circuit(network: &Network, numbers: &mut HashMap<Name, u32>) -> Circuit {
         if is_output(element) {
             circuit.guards.push(power);
         }
-        leaving.push(match test(element) {
+        leaving.push(match test(rung, element) {
             Some((name, positive)) => {
                 let next = numbers.len() as u32;
                 let variable = *numbers.entry(name).or_insert(next);
@@ -111,7 +112,8 @@ fn is_output(element: &Element) -> bool {
 }
 
 /// The variable that decides whether power passes, and by which value.
-fn test(element: &Element) -> Option<(Name, bool)> {
+fn test(rung: &Rung, element: &Element) -> Option<(Name, bool)> {
+    let start = rung.place(element.within).start;
     match &element.kind {
         ElementKind::Contact(contact) => {
             let name = &contact.operand.name;
@@ -125,12 +127,11 @@ fn test(element: &Element) -> Option<(Name, bool)> {
             let text = format!("{} {} {}", it.left.name, it.relation.sign(), it.right.name);
             Some((text.into(), true))
         }
-        ElementKind::OneShot(_) => Some((format!("edge at {}", element.span.start).into(), true)),
+        ElementKind::OneShot(_) => Some((format!("edge at {start}").into(), true)),
         ElementKind::Open => Some(("never".into(), true)),
-        ElementKind::Block(block) if block.shapes_power => Some((
-            format!("{} at {}", block.name, element.span.start).into(),
-            true,
-        )),
+        ElementKind::Block(block) if block.shapes_power => {
+            Some((format!("{} at {start}", block.name).into(), true))
+        }
         _ => None,
     }
 }

@@ -79,7 +79,7 @@ fn collected(ladder: &Ladder, typed: Span) -> Vec<Variable<'_>> {
                 declaration: None,
                 written: true,
                 // Behind its instance.
-                place: element.span.end,
+                place: rung.place(element.within).end,
             });
         }
     }

@@ -20,11 +20,12 @@ pub fn hover_in_ladder(
     let place = mention.and_then(|it| it.place);
     let place = place.or_else(|| ladder.names().element_at(offset));
     let at = place.and_then(|place| Some((place, element(ladder.program(), place)?)));
-    if let Some((place, element)) = at
+    if let Some((place, (rung, element))) = at
         && !is_plain(element)
         && mention.is_none_or(|it| it.place.is_some())
     {
-        return Some(of_box(ladder, place, element, budget));
+        let whole = rung.place(element.within);
+        return Some(of_box(ladder, place, element, whole, budget));
     }
     if let Some(mention) = mention {
         return Some(of_variable(
@@ -35,7 +36,7 @@ pub fn hover_in_ladder(
             budget,
         ));
     }
-    if let Some((_, element)) = at
+    if let Some((_, (rung, element))) = at
         && let Some(operand) = element
             .kind
             .reads()
@@ -47,7 +48,7 @@ pub fn hover_in_ladder(
             ladder,
             spec,
             &operand.name,
-            element.span,
+            rung.place(element.within),
             budget,
         ));
     }
@@ -206,8 +207,8 @@ fn first_line(text: &str) -> &str {
 }
 
 /// A box: what it is, and the rung it stands on.
-fn of_box(ladder: &Ladder, place: Place, element: &Element, budget: &Budget) -> Hover {
-    let text = ladder.text.get(element.span.range()).unwrap_or_default();
+fn of_box(ladder: &Ladder, place: Place, element: &Element, whole: Span, budget: &Budget) -> Hover {
+    let text = ladder.text.get(whole.range()).unwrap_or_default();
     let conditions = &ladder.analysis.conditions;
     let power = ladder.power_at(place, budget);
     let mut blocks = Vec::new();
@@ -216,7 +217,7 @@ fn of_box(ladder: &Ladder, place: Place, element: &Element, budget: &Budget) -> 
     }
     blocks.extend(drawing(ladder, place));
     Hover {
-        span: element.span,
+        span: whole,
         name: describe::name(&element.kind, text),
         address: None,
         summary: describe::summary(&element.kind),

@@ -146,7 +146,7 @@ fn target(ladder: &Ladder, mention: &Mention) -> Target {
         .place
         .and_then(|place| element(ladder.program(), place));
     let whole = match element {
-        Some(element) => element.span,
+        Some((rung, element)) => rung.place(element.within),
         None => {
             let declaration = ladder.program().declarations.find(&mention.name);
             let span = declaration.map(|it| it.span);
@@ -199,9 +199,11 @@ fn routine(ladder: &Ladder, at: usize) -> Vec<Target> {
 fn labels(ladder: &Ladder, routine: usize, name: &Name) -> Vec<Target> {
     let routine = ladder.program().routines.get(routine);
     let rungs = routine.into_iter().flat_map(|it| &it.rungs);
-    let elements = rungs.flat_map(|rung| rung.network.elements());
-    let labels = elements.filter_map(|(_, it)| match &it.kind {
-        ElementKind::Label(label) if label.name == *name => Some((it.span, label.span)),
+    let elements = rungs.flat_map(|rung| rung.network.elements().map(move |(_, it)| (rung, it)));
+    let labels = elements.filter_map(|(rung, it)| match &it.kind {
+        ElementKind::Label(label) if label.name == *name => {
+            Some((rung.place(it.within), rung.place(label.within)))
+        }
         _ => None,
     });
     labels

@@ -1,6 +1,6 @@
 use std::collections::HashSet;
 
-use ::ladder::{ElementKind, Routine};
+use ::ladder::{Element, ElementKind, Routine, Rung, Within};
 use grafcet::Role;
 use logic::Name;
 use petgraph::graph::NodeIndex;
@@ -70,7 +70,7 @@ pub(super) fn in_ladder(ladder: &Ladder, subject: &Subject) -> Vec<Reference> {
                 let (called, span) = match kind {
                     ElementKind::Call(call) => (
                         callee(ladder, place.routine, &call.routine.name),
-                        Some(call.routine.span),
+                        Some(call.routine.within),
                     ),
                     ElementKind::Block(block) => (definition_of(ladder, &block.name), None),
                     _ => return None,
@@ -86,7 +86,7 @@ pub(super) fn in_ladder(ladder: &Ladder, subject: &Subject) -> Vec<Reference> {
                 _ => return None,
             };
             let same = place.routine == *routine && label.name == *name;
-            same.then_some((Some(label.span), access))
+            same.then_some((Some(label.within), access))
         }),
         Subject::Step(_) | Subject::InSpec(_) => Vec::new(),
     }
@@ -96,15 +96,15 @@ pub(super) fn in_ladder(ladder: &Ladder, subject: &Subject) -> Vec<Reference> {
 /// element's own.
 fn elements(
     ladder: &Ladder,
-    wanted: impl Fn(Place, &ElementKind) -> Option<(Option<Span>, Access)>,
+    wanted: impl Fn(Place, &ElementKind) -> Option<(Option<Within>, Access)>,
 ) -> Vec<Reference> {
     let mut found = Vec::new();
     for (routine, it) in ladder.program().routines.iter().enumerate() {
-        for (place, kind, whole) in placed(routine, it) {
-            if let Some((span, access)) = wanted(place, kind) {
+        for (place, rung, element) in placed(routine, it) {
+            if let Some((within, access)) = wanted(place, &element.kind) {
                 found.push(Reference {
                     side: Side::Ladder,
-                    span: span.unwrap_or(whole),
+                    span: rung.place(within.unwrap_or(element.within)),
                     access,
                 });
             }
@@ -114,17 +114,17 @@ fn elements(
 }
 
 /// The elements of a routine with their places.
-fn placed(routine: usize, it: &Routine) -> impl Iterator<Item = (Place, &ElementKind, Span)> {
+fn placed(routine: usize, it: &Routine) -> impl Iterator<Item = (Place, &Rung, &Element)> {
     let rungs = it.rungs.iter().enumerate();
-    rungs.flat_map(move |(rung, it)| {
-        let elements = it.network.elements();
+    rungs.flat_map(move |(rung, within)| {
+        let elements = within.network.elements();
         elements.map(move |(element, it): (NodeIndex, _)| {
             let place = Place {
                 routine,
                 rung,
                 element: element.index(),
             };
-            (place, &it.kind, it.span)
+            (place, within, it)
         })
     })
 }

@@ -76,32 +76,31 @@ fn in_ladder(ladder: &Ladder, offset: usize) -> Option<Named> {
 
 /// What an element is about where no variable in it is pointed at.
 fn in_element(ladder: &Ladder, place: Place) -> Option<Named> {
-    let element = element(ladder.program(), place)?;
+    let (rung, element) = element(ladder.program(), place)?;
+    let whole = rung.place(element.within);
     let (subject, span) = match &element.kind {
         ElementKind::Call(call) => (
             Subject::Routine(callee(ladder, place.routine, &call.routine.name)?),
-            call.routine.span,
+            rung.place(call.routine.within),
         ),
         ElementKind::Jump(label) | ElementKind::Label(label) => (
             Subject::Label {
                 routine: place.routine,
                 name: label.name.clone(),
             },
-            label.span,
+            rung.place(label.within),
         ),
-        ElementKind::Block(block) => (
-            Subject::Routine(definition_of(ladder, &block.name)?),
-            element.span,
-        ),
+        ElementKind::Block(block) => (Subject::Routine(definition_of(ladder, &block.name)?), whole),
         kind => match state_of(ladder, kind) {
-            Some(state) => (Subject::Value(state), element.span),
+            Some(state) => (Subject::Value(state), whole),
             None => {
                 let operand = match kind {
                     ElementKind::Contact(contact) => &contact.operand,
                     ElementKind::Coil(coil) => &coil.operand,
                     _ => return None,
                 };
-                (Subject::Variable(operand.name.clone()), operand.span)
+                let place = rung.place(operand.within);
+                (Subject::Variable(operand.name.clone()), place)
             }
         },
     };

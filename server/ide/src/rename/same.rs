@@ -1,7 +1,7 @@
 //! Whether a program says the same as another, up to the name of one variable.
 
 use ::ladder::{
-    Assignment, Declaration, ElementKind, Operand, Program, Reading, Routine, Rung, Value,
+    Assignment, Declaration, ElementKind, Operand, Program, Reading, Routine, Rung, Value, Within,
 };
 use logic::Name;
 use source::Span;
@@ -91,7 +91,10 @@ impl Renaming<'_> {
                 &|it| Operand::new(it.name.clone(), NOWHERE),
                 &Name::clone,
             );
-            wires && mapped(&one.kind, &|it| self.operand(it), &|it| self.name(it)) == plain
+            wires
+                && mapped(&one.kind, &|it| self.operand(before, it), &|it| {
+                    self.name(it)
+                }) == plain
         })
     }
 
@@ -104,9 +107,9 @@ impl Renaming<'_> {
         }
     }
 
-    fn operand(&self, it: &Operand) -> Operand {
+    fn operand(&self, rung: &Rung, it: &Operand) -> Operand {
         let format = self.ladder.program().format;
-        let written = self.ladder.text.get(it.span.range());
+        let written = self.ladder.text.get(rung.place(it.within).range());
         Operand::new(
             renamed(format, &it.name, written, self.old, self.new),
             NOWHERE,
@@ -134,7 +137,7 @@ fn mapped(
     }
     // Routines and labels have names of their own.
     if let Some(destination) = kind.destination_mut() {
-        destination.span = NOWHERE;
+        destination.within = Within::default();
     }
     match &mut kind {
         ElementKind::Timer(timer) => timer.output = name(&timer.output),

@@ -55,7 +55,7 @@ fn rung(ladder: &Ladder, rung: &Rung) -> Symbol {
         _ => format!("rung {}", rung.number),
     };
     let elements = rung.network.elements();
-    let children = elements.filter_map(|(_, element)| driven(ladder, element));
+    let children = elements.filter_map(|(_, element)| driven(ladder, rung, element));
     Symbol {
         children: children.collect(),
         ..Symbol::new(SymbolKind::Rung, name, rung.span, rung.span)
@@ -63,8 +63,9 @@ fn rung(ladder: &Ladder, rung: &Rung) -> Symbol {
 }
 
 /// What an element drives; `None` of one that only passes power on.
-fn driven(ladder: &Ladder, element: &Element) -> Option<Symbol> {
-    let text = || ladder.text.get(element.span.range()).unwrap_or_default();
+fn driven(ladder: &Ladder, rung: &Rung, element: &Element) -> Option<Symbol> {
+    let whole = rung.place(element.within);
+    let text = || ladder.text.get(whole.range()).unwrap_or_default();
     let kind = match &element.kind {
         ElementKind::Coil(coil) => {
             let analysis = &ladder.analysis;
@@ -81,12 +82,12 @@ fn driven(ladder: &Ladder, element: &Element) -> Option<Symbol> {
                 words.push("state".to_owned());
             }
             words.extend(analysis.description(name).map(|it| title(&it)));
-            let symbol = Symbol::new(kind, &**name, element.span, coil.operand.span);
+            let symbol = Symbol::new(kind, &**name, whole, rung.place(coil.operand.within));
             return Some(symbol.detailed(words.join(", ")));
         }
         kind @ ElementKind::Assign(_) => match state_of(ladder, kind) {
             Some(state) => {
-                let symbol = Symbol::new(SymbolKind::State, &*state, element.span, element.span);
+                let symbol = Symbol::new(SymbolKind::State, &*state, whole, whole);
                 return Some(symbol.detailed("state of a step register"));
             }
             None => SymbolKind::Box,
@@ -105,7 +106,7 @@ fn driven(ladder: &Ladder, element: &Element) -> Option<Symbol> {
         true => title(text()),
         false => name,
     };
-    let symbol = Symbol::new(kind, name, element.span, element.span);
+    let symbol = Symbol::new(kind, name, whole, whole);
     Some(symbol.detailed(describe::summary(&element.kind)))
 }
 

@@ -312,8 +312,9 @@ fn preset(pins: &[Pin], names: &[&str], words: &mut Beside<'_>) -> Option<Operan
             continue;
         }
         let message = format!("`{}` at pin `{name}` is not read", operand.name);
+        let place = operand.within.while_building();
         words.diagnostics.push(
-            Diagnostic::new(codes::LADDER_SYNTAX, operand.span, message)
+            Diagnostic::new(codes::LADDER_SYNTAX, place, message)
                 .help("give times as `500ms` or `T#5s`; read other outputs by name, `T1.ET`"),
         );
     }

@@ -62,22 +62,14 @@ pub(super) fn rungs(
                     .help("end it with a coil, a jump or a box"),
             );
         }
-        rungs.push(Rung {
-            number: rungs.len() as u32,
-            comment,
-            network: drawn.builder.finish(),
-            span,
-        });
+        let number = rungs.len() as u32;
+        rungs.push(Rung::new(number, comment, drawn.builder.finish(), span));
     }
     for (row, name, span) in labels {
         let mut drawn = Drawn::new(grid, &drawing, &wires, &nets, &kinds, *row);
         drawn.label(*row, name, *span);
-        rungs.push(Rung {
-            number: rungs.len() as u32,
-            comment: None,
-            network: drawn.builder.finish(),
-            span: *span,
-        });
+        let number = rungs.len() as u32;
+        rungs.push(Rung::new(number, None, drawn.builder.finish(), *span));
     }
     report_words(&drawing, diagnostics);
     rungs

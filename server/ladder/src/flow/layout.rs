@@ -8,7 +8,7 @@ use logic::Name;
 use petgraph::graph::NodeIndex;
 use source::{Diagnostic, Span, codes};
 
-use crate::{ElementKind, Network, Operand, Program, Routine, Wire};
+use crate::{ElementKind, Network, Operand, Program, Routine, Rung, Wire};
 
 /// A routine as a list of stretches.
 #[derive(Clone, Debug, Default)]
@@ -79,7 +79,7 @@ fn layout(
     let mut labels = HashMap::new();
     let mut stretches = Vec::new();
     for (at, rung) in routine.rungs.iter().enumerate() {
-        cut(at, &rung.network, &mut stretches, &mut labels, diagnostics);
+        cut(at, rung, &mut stretches, &mut labels, diagnostics);
     }
     let mut layout = Layout {
         stretches,
@@ -92,19 +92,20 @@ fn layout(
 
 /// Cuts a rung into stretches, and notes the labels in it.
 fn cut(
-    rung: usize,
-    network: &Network,
+    place: usize,
+    rung: &Rung,
     stretches: &mut Vec<Stretch>,
     labels: &mut HashMap<Name, (usize, Span)>,
     diagnostics: &mut Vec<Diagnostic>,
 ) {
     let mut start = 0;
     let mut only_rail = true;
+    let network = &rung.network;
     for (at, element) in network.elements() {
         let at = at.index();
         let mut end_after = |steer| {
             stretches.push(Stretch {
-                rung,
+                rung: place,
                 elements: start..at + 1,
                 steer: Some(steer),
             });
@@ -115,13 +116,13 @@ fn cut(
             ElementKind::Label(name) => {
                 if !only_rail && start < at {
                     stretches.push(Stretch {
-                        rung,
+                        rung: place,
                         elements: start..at,
                         steer: None,
                     });
                     start = at;
                 }
-                note_label(name, stretches.len(), labels, diagnostics);
+                note_label(rung, name, stretches.len(), labels, diagnostics);
             }
             ElementKind::Call(_) => end_after(Steer::Call(None)),
             ElementKind::Jump(_) => end_after(Steer::Jump(None)),
@@ -134,7 +135,7 @@ fn cut(
     }
     if start < network.len() {
         stretches.push(Stretch {
-            rung,
+            rung: place,
             elements: start..network.len(),
             steer: None,
         });
@@ -142,23 +143,25 @@ fn cut(
 }
 
 fn note_label(
+    rung: &Rung,
     name: &Operand,
     stretch: usize,
     labels: &mut HashMap<Name, (usize, Span)>,
     diagnostics: &mut Vec<Diagnostic>,
 ) {
+    let span = rung.place(name.within);
     if let Some((_, first)) = labels.get(&name.name) {
         diagnostics.push(
             Diagnostic::new(
                 codes::DECLARED_TWICE,
-                name.span,
+                span,
                 format!("the routine has a label `{}` already", name.name),
             )
             .help("rename one of them; jumps go to the first")
             .related(*first, "the first label of that name"),
         );
     } else {
-        labels.insert(name.name.clone(), (stretch, name.span));
+        labels.insert(name.name.clone(), (stretch, span));
     }
 }
 
@@ -182,16 +185,18 @@ fn aim(
             (ElementKind::Call(call), Some(Steer::Call(_))) => {
                 let target = find(&call.routine.name);
                 if target.is_none() {
-                    diagnostics.push(missing_routine(&call.routine));
+                    let place = rung.place(call.routine.within);
+                    diagnostics.push(missing_routine(&call.routine.name, place));
                 }
                 Steer::Call(target)
             }
             (ElementKind::Jump(name), Some(Steer::Jump(_))) => {
                 let target = labels.get(&name.name);
                 match target {
-                    None => diagnostics.push(missing_label(name)),
+                    None => diagnostics.push(missing_label(&name.name, rung.place(name.within))),
                     Some((to, label)) if *to <= at => {
-                        diagnostics.push(backward_jump(name, *label));
+                        let jump = rung.place(name.within);
+                        diagnostics.push(backward_jump(&name.name, jump, *label));
                         backward.push((*to, at, node));
                     }
                     Some(_) => {}
@@ -277,7 +282,7 @@ fn report_passed_over(routine: &Routine, layout: &Layout, diagnostics: &mut Vec<
             diagnostics.push(passed_over(
                 first.span.cover(last.span),
                 passed.len(),
-                rung.network.element(stretch.last()).span,
+                rung.place(rung.network.element(stretch.last()).within),
             ));
         }
         at = end;
@@ -301,31 +306,30 @@ fn passed_over(span: Span, count: usize, jump: Span) -> Diagnostic {
         .related(jump, "this is always powered")
 }
 
-fn missing_routine(routine: &Operand) -> Diagnostic {
+fn missing_routine(name: &Name, call: Span) -> Diagnostic {
     Diagnostic::new(
         codes::MISSING_ROUTINE,
-        routine.span,
-        format!("the called routine `{}` is not in the file", routine.name),
+        call,
+        format!("the called routine `{name}` is not in the file"),
     )
     .help("export the whole program; until then what the routine writes is unknown")
 }
 
-fn missing_label(name: &Operand) -> Diagnostic {
+fn missing_label(name: &Name, jump: Span) -> Diagnostic {
     Diagnostic::new(
         codes::DANGLING_CONNECTION,
-        name.span,
-        format!("the routine has no label `{}` to jump to", name.name),
+        jump,
+        format!("the routine has no label `{name}` to jump to"),
     )
     .help("add the label or correct its name; until then this never jumps")
 }
 
-fn backward_jump(name: &Operand, label: Span) -> Diagnostic {
+fn backward_jump(name: &Name, jump: Span, label: Span) -> Diagnostic {
     Diagnostic::new(
         codes::BACKWARD_JUMP,
-        name.span,
+        jump,
         format!(
-            "the jump to `{}` leads backwards, so the rungs between may be solved several times a scan",
-            name.name
+            "the jump to `{name}` leads backwards, so the rungs between may be solved several times a scan"
         ),
     )
     .help("their conditions are taken as unknown; jump forwards only to have them")

@@ -216,7 +216,7 @@ impl<'p> Walk<'p> {
         };
         let diagnostic = Diagnostic::new(
             codes::CALL_NOT_FOLLOWED,
-            call.routine.span,
+            rung.place(call.routine.within),
             format!(
                 "`{}` is being solved when this calls it again; the call is not followed",
                 call.routine.name

@@ -1,7 +1,6 @@
 use logic::{Name, Relation};
-use source::Span;
 
-use super::Operand;
+use super::{Operand, Within};
 
 /// One thing on a rung, with the bytes it was read from.
 #[derive(Clone, Debug, PartialEq)]
@@ -9,7 +8,7 @@ pub struct Element {
     /// What it is.
     pub kind: ElementKind,
     /// Where it is written, the whole of it.
-    pub span: Span,
+    pub within: Within,
 }
 
 /// What an element is, and so how power passes it.
@@ -305,6 +304,21 @@ pub struct Block {
     pub shapes_power: bool,
 }
 
+impl Block {
+    /// Whether only its place tells it from others: it has no instance, and
+    /// no inputs or one that comes by wire.
+    pub(crate) fn is_nameless(&self) -> bool {
+        let mut inputs = self
+            .pins
+            .iter()
+            .filter(|pin| pin.direction != PinDirection::Output)
+            .peekable();
+        self.instance.is_none()
+            && (inputs.peek().is_none()
+                || inputs.any(|pin| pin.operand.as_ref().is_none_or(|it| &*it.name == "_")))
+    }
+}
+
 impl ElementKind {
     /// The variables that the element writes when it is solved. Bits and words
     /// are given as written; a whole word stands for its bits too.
@@ -354,6 +368,13 @@ impl ElementKind {
 
     /// Every operand that names a variable, to change its name or its place.
     pub fn variables_mut(&mut self) -> Vec<&mut Operand> {
+        let mut all = Vec::new();
+        self.each_variable(|variable| all.push(variable));
+        all
+    }
+
+    /// Visits every operand that names a variable.
+    pub(super) fn each_variable<'e>(&'e mut self, mut visit: impl FnMut(&'e mut Operand)) {
         match self {
             Self::Rail
             | Self::Invert
@@ -362,33 +383,36 @@ impl ElementKind {
             | Self::Jump(_)
             | Self::Label(_)
             | Self::Return { .. }
-            | Self::Zone => Vec::new(),
-            Self::Contact(contact) => vec![&mut contact.operand],
-            Self::Coil(coil) => vec![&mut coil.operand],
-            Self::Comparison(comparison) => vec![&mut comparison.left, &mut comparison.right],
-            Self::OneShot(shot) => shot.memory.iter_mut().collect(),
+            | Self::Zone => {}
+            Self::Contact(contact) => visit(&mut contact.operand),
+            Self::Coil(coil) => visit(&mut coil.operand),
+            Self::Comparison(comparison) => {
+                visit(&mut comparison.left);
+                visit(&mut comparison.right);
+            }
+            Self::OneShot(shot) => shot.memory.iter_mut().for_each(visit),
             Self::Timer(timer) => {
-                let preset = timer.preset_from.iter_mut();
-                preset.chain([&mut timer.instance]).collect()
+                timer.preset_from.iter_mut().for_each(&mut visit);
+                visit(&mut timer.instance);
             }
             Self::Counter(counter) => {
-                let preset = counter.preset_from.iter_mut();
-                preset.chain([&mut counter.instance]).collect()
+                counter.preset_from.iter_mut().for_each(&mut visit);
+                visit(&mut counter.instance);
             }
             Self::Assign(assignment) => {
-                let read = match &mut assignment.value {
-                    Value::Constant(_) | Value::Increment(_) => &mut [],
-                    Value::Copy(operand) => std::slice::from_mut(operand),
-                    Value::Term { reads, .. } => reads.as_mut_slice(),
-                };
-                read.iter_mut().chain([&mut assignment.target]).collect()
+                match &mut assignment.value {
+                    Value::Constant(_) | Value::Increment(_) => {}
+                    Value::Copy(operand) => visit(operand),
+                    Value::Term { reads, .. } => reads.iter_mut().for_each(&mut visit),
+                }
+                visit(&mut assignment.target);
             }
-            Self::ResetBox(operand) => vec![operand],
-            Self::Call(call) => call.arguments.iter_mut().collect(),
+            Self::ResetBox(operand) => visit(operand),
+            Self::Call(call) => call.arguments.iter_mut().for_each(visit),
             Self::Block(block) => {
+                block.instance.iter_mut().for_each(&mut visit);
                 let pins = block.pins.iter_mut();
-                let at_pins = pins.filter_map(|pin| pin.operand.as_mut());
-                block.instance.iter_mut().chain(at_pins).collect()
+                pins.filter_map(|pin| pin.operand.as_mut()).for_each(visit);
             }
         }
     }

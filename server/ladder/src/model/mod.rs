@@ -10,6 +10,7 @@ mod element;
 mod network;
 mod operand;
 mod program;
+mod within;
 
 pub use chart::{Chart, ChartAction, ChartStep, ChartTransition};
 pub use declaration::{Class, Declaration, Declarations};
@@ -18,6 +19,7 @@ pub use element::{
     CounterKind, Edge, Element, ElementKind, Familiarity, Gate, OneShot, Pin, PinDirection, Timer,
     TimerKind, Value,
 };
-pub use network::{Network, NetworkBuilder, Port, Wire};
+pub use network::{Network, NetworkBuilder, Placed, Port, Wire};
 pub use operand::Operand;
 pub use program::{Format, Program, Role, Routine, Rung};
+pub use within::Within;

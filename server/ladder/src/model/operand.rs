@@ -1,6 +1,8 @@
 use logic::Name;
 use source::Span;
 
+use super::Within;
+
 /// A variable as an element of a rung names it.
 ///
 /// The name is canonical: readers fold aliases, addresses and, where the
@@ -13,15 +15,24 @@ pub struct Operand {
     /// source where the element allows one.
     pub name: Name,
     /// Where it is written.
-    pub span: Span,
+    pub within: Within,
 }
 
 impl Operand {
-    /// The operand `name`, written at `span`.
+    /// The operand `name`, written at `span` of the file, for an element of a
+    /// [`NetworkBuilder`](super::NetworkBuilder).
     pub fn new(name: impl Into<Name>, span: Span) -> Self {
         Self {
             name: name.into(),
-            span,
+            within: Within::in_file(span),
+        }
+    }
+
+    /// Another variable, written at the same place.
+    pub fn renamed(&self, name: impl Into<Name>) -> Self {
+        Self {
+            name: name.into(),
+            within: self.within,
         }
     }
 }

@@ -1,7 +1,9 @@
+use std::sync::Arc;
+
 use logic::Name;
 use source::Span;
 
-use super::{Chart, Declarations, Network};
+use super::{Chart, Declarations, Network, Placed, Within};
 
 /// Which form a program was read from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -110,7 +112,28 @@ pub struct Rung {
     /// Its title or comment.
     pub comment: Option<Name>,
     /// Its power flow.
-    pub network: Network,
+    pub network: Arc<Network>,
     /// Where it stands, the whole of it.
     pub span: Span,
+    /// The byte of the file that the places in its network count from.
+    origin: u32,
+}
+
+impl Rung {
+    /// A rung that stands at `span`.
+    pub fn new(number: u32, comment: Option<Name>, drawn: Placed, span: Span) -> Self {
+        Self {
+            number,
+            comment,
+            network: drawn.network,
+            span,
+            origin: drawn.origin,
+        }
+    }
+
+    /// Where in the file an element of the rung, or an operand of one, is
+    /// written.
+    pub fn place(&self, within: Within) -> Span {
+        within.from(self.origin)
+    }
 }

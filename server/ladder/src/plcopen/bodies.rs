@@ -204,12 +204,9 @@ impl UnitReading<'_, '_, '_, '_> {
         };
         for plan in &plans.rungs {
             let span = span(&diagram, plan);
-            rungs.push(Rung {
-                number: 0,
-                comment: plan.comment.as_deref().map(Name::from),
-                network: network::lower(&mut body, plan, span),
-                span,
-            });
+            let comment = plan.comment.as_deref().map(Name::from);
+            let network = network::lower(&mut body, plan, span);
+            rungs.push(Rung::new(0, comment, network, span));
         }
         conditions
     }

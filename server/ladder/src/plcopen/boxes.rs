@@ -149,7 +149,7 @@ impl<'a> Lowering<'_, 'a> {
     /// `instance.pin` as an operand written where the block is.
     pub(super) fn member(&mut self, instance: &Operand, pin: &str) -> Operand {
         let name = format!("{}.{pin}", instance.name);
-        Operand::new(self.body.names.spell(&name), instance.span)
+        instance.renamed(self.body.names.spell(&name))
     }
 
     /// Joins every connected Boolean input but `EN` to its pin.

@@ -19,7 +19,7 @@ use super::signal::{Form, Signal, Tap, Term};
 use super::xml::Text;
 use crate::{
     Comparison, Contact, ContactKind, Declarations, Edge, ElementKind, Network, NetworkBuilder,
-    OneShot, Operand, Port, Wire,
+    OneShot, Operand, Placed, Port, Wire,
 };
 
 /// What the rungs of a body have in common.
@@ -90,7 +90,7 @@ impl Arrival {
 }
 
 /// Builds the network of a rung.
-pub(super) fn lower(body: &mut Body<'_>, plan: &Plan, span: Span) -> Network {
+pub(super) fn lower(body: &mut Body<'_>, plan: &Plan, span: Span) -> Placed {
     let diagram = body.diagram;
     let mut lowering = Lowering {
         diagram,

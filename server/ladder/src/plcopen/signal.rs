@@ -151,7 +151,7 @@ impl Term {
     pub(super) fn variable(operand: Operand) -> Self {
         Self {
             text: operand.name.clone(),
-            span: operand.span,
+            span: operand.within.while_building(),
             form: Form::Variable,
             reads: Rc::new([operand]),
             mnemonic: None,

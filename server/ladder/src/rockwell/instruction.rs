@@ -117,7 +117,8 @@ impl Drawing<'_, '_, '_> {
         match written.filter(|text| operand::path(text).is_some()) {
             Some(text) => {
                 let done = format!("{text}.DN");
-                self.names.canonical(self.place.scope, &done, instance.span)
+                let place = instance.within.while_building();
+                self.names.canonical(self.place.scope, &done, place)
             }
             None => format!("{}.DN", instance.name).into(),
         }
@@ -245,8 +246,9 @@ impl Drawing<'_, '_, '_> {
             Some(&name) => routine.name = name.into(),
             None => {
                 let message = format!("the routine `{}` is not in the file", routine.name);
+                let place = routine.within.while_building();
                 self.diagnostics.push(
-                    Diagnostic::new(codes::MISSING_ROUTINE, routine.span, message)
+                    Diagnostic::new(codes::MISSING_ROUTINE, place, message)
                         .help("export the whole program; what the routine writes is unknown"),
                 );
             }

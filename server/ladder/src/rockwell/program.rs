@@ -17,7 +17,7 @@ use super::neutral::{self, Instruction, Item, Statement};
 use super::project::{Edits, Extent, Inhibition, Project, RungSource, Unit, UnitKind};
 use super::rung::{self, Callable, Definition, Place, Surroundings};
 use crate::reading::Reading;
-use crate::{Network, PinDirection, Program, Role, Routine, Rung};
+use crate::{PinDirection, Placed, Program, Role, Routine, Rung};
 
 /// The routines of a unit with their rungs read into trees.
 struct Parsed<'p, 't> {
@@ -184,22 +184,17 @@ impl Parsed<'_, '_> {
             text: &source.text,
             span: source.span,
         };
-        let mut draw = |statement: &Statement| -> Network {
+        let mut draw = |statement: &Statement| -> Placed {
             rung::network(statement, place, surroundings, names, diagnostics)
         };
-        let networks: Vec<Network> = if rung.statements.is_empty() {
+        let networks: Vec<Placed> = if rung.statements.is_empty() {
             vec![draw(&Statement::default())]
         } else {
             rung.statements.iter().map(draw).collect()
         };
         networks
             .into_iter()
-            .map(|network| Rung {
-                number: source.number,
-                comment: source.comment.clone(),
-                network,
-                span: source.span,
-            })
+            .map(|drawn| Rung::new(source.number, source.comment.clone(), drawn, source.span))
             .collect()
     }
 

@@ -19,6 +19,7 @@ use super::neutral::{Instruction, Item, Statement};
 use super::passage::Passage;
 use crate::{
     Block, Class, ElementKind, Familiarity, Gate, Network, NetworkBuilder, Operand, PinDirection,
+    Placed,
 };
 
 /// Most elements that power comes from at one place. More are gathered by one
@@ -66,7 +67,7 @@ pub(super) fn network(
     surroundings: &Surroundings,
     names: &mut Names,
     diagnostics: &mut Vec<Diagnostic>,
-) -> Network {
+) -> Placed {
     let start = statement.place.start;
     let mut drawing = Drawing {
         builder: NetworkBuilder::new(place.text.span(start..start)),
@@ -82,7 +83,8 @@ pub(super) fn network(
         diagnostics,
         ..
     } = drawing;
-    let network = builder.finish();
+    let placed = builder.finish();
+    let network = &placed.network;
     if !network.is_empty()
         && network
             .elements()
@@ -97,7 +99,7 @@ pub(super) fn network(
             .help("add a coil or another output, or remove the rung"),
         );
     }
-    network
+    placed
 }
 
 /// Whether an element only decides about power.
@@ -225,7 +227,7 @@ impl<'p> Drawing<'_, 'p, '_> {
         }
         let span = place.text.span(range);
         let name = self.names.canonical(place.scope, text, span);
-        Some(Operand { name, span })
+        Some(Operand::new(name, span))
     }
 }
 

@@ -35,7 +35,7 @@ fn is_output(pin: &str) -> bool {
 pub fn own_atom(network: &Network, at: NodeIndex) -> Name {
     let element = network.element(at);
     let ElementKind::Block(block) = &element.kind else {
-        return format!("element@{}", element.span.start).into();
+        return format!("element@{}", network.mark(at)).into();
     };
     if let Some(instance) = &block.instance {
         return format!("{}.ENO", instance.name).into();
@@ -47,27 +47,28 @@ pub fn own_atom(network: &Network, at: NodeIndex) -> Name {
         .map(|pin| pin.operand.as_ref().map_or("_", |operand| &operand.name))
         .collect();
     let mut name = format!("{}({})", block.name, inputs.join(","));
-    if inputs.is_empty() || inputs.contains(&"_") {
-        name.push_str(&format!("@{}", element.span.start));
+    if block.is_nameless() {
+        name.push_str(&format!("@{}", network.mark(at)));
     }
     name.into()
 }
 
 /// The bit that a one shot compares with: its memory's operand, or a bit of
-/// its own.
+/// its own, unlike any other of the network.
 pub fn memory_atom(network: &Network, at: NodeIndex) -> Name {
     let element = network.element(at);
     match &element.kind {
         ElementKind::OneShot(shot) => shot.memory.as_ref().map(|memory| memory.name.clone()),
         _ => None,
     }
-    .unwrap_or_else(|| format!("memory@{}", element.span.start).into())
+    .unwrap_or_else(|| format!("memory@{}", network.mark(at)).into())
 }
 
-/// The bit that an edge pin at the end of a wire compares with.
+/// The bit that an edge pin at the end of a wire compares with, unlike any
+/// other of the network.
 pub fn wire_memory_atom(network: &Network, wire: EdgeIndex) -> Name {
     let ends = network.graph().edge_endpoints(wire);
-    let place = |at: NodeIndex| network.element(at).span.start;
+    let place = |at: NodeIndex| network.mark(at);
     match ends {
         Some((from, to)) => format!("edge@{}-{}", place(from), place(to)).into(),
         None => "edge".into(),

@@ -18,7 +18,7 @@ use super::syntax::RungText;
 use crate::reading::Source;
 use crate::{
     Block, Comparison, Contact, ContactKind, Edge, ElementKind, Familiarity, Gate, Network,
-    NetworkBuilder, OneShot, Operand, Port, Wire,
+    NetworkBuilder, OneShot, Operand, Placed, Port, Wire,
 };
 
 /// Draws a rung that stands at `span`.
@@ -28,7 +28,7 @@ pub(super) fn network(
     source: Source<'_>,
     names: &mut Names<'_>,
     findings: &mut Vec<Diagnostic>,
-) -> Network {
+) -> Placed {
     let mut drawing = Drawing {
         builder: NetworkBuilder::new(place(source, Span::at(span.range().start))),
         source,

@@ -105,12 +105,12 @@ pub(crate) fn read(source: Source<'_>) -> Reading {
                 let place = place(source, span);
                 let routine = sections.routine_of_rung(place);
                 routine.span = routine.span.cover(place);
-                routine.rungs.push(Rung {
-                    number: u32::try_from(routine.rungs.len()).unwrap_or(u32::MAX),
-                    comment: comment(text, &rung, items.get(..at).unwrap_or_default(), statement),
-                    network: network(&rung, span, source, &mut names, &mut findings),
-                    span: place,
-                });
+                routine.rungs.push(Rung::new(
+                    u32::try_from(routine.rungs.len()).unwrap_or(u32::MAX),
+                    comment(text, &rung, items.get(..at).unwrap_or_default(), statement),
+                    network(&rung, span, source, &mut names, &mut findings),
+                    place,
+                ));
             }
         }
     }

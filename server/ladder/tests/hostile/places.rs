@@ -1,6 +1,6 @@
 //! Whether every place that a reading names lies in the text.
 
-use ladder::{Element, ElementKind, Operand, Reading};
+use ladder::{Element, ElementKind, Operand, Reading, Rung};
 use source::{Diagnostic, Span};
 
 /// The first place that does not lie in `bytes`, or ends inside a character.
@@ -25,8 +25,8 @@ pub fn outside(bytes: &[u8], reading: &Reading) -> Option<String> {
         .map(|(_, it)| (it.span, format!("rung {}", it.number)));
     let elements = program
         .rungs()
-        .flat_map(|(_, rung)| rung.network.elements())
-        .flat_map(|(_, element)| of_element(element));
+        .flat_map(|(_, rung)| rung.network.elements().map(move |(_, it)| (rung, it)))
+        .flat_map(|(rung, element)| of_element(rung, element));
     let charts = program.charts.iter().flat_map(|chart| {
         let steps = chart.steps.iter().map(|step| step.span);
         let transitions = chart.transitions.iter().map(|it| it.span);
@@ -56,11 +56,14 @@ fn of_diagnostic(it: &Diagnostic) -> Vec<(Span, String)> {
         .collect()
 }
 
-fn of_element(element: &Element) -> Vec<(Span, String)> {
-    let operands = operands(element)
-        .into_iter()
-        .map(|operand| (operand.span, format!("operand {}", operand.name)));
-    std::iter::once((element.span, format!("{element:?}")))
+fn of_element(rung: &Rung, element: &Element) -> Vec<(Span, String)> {
+    let operands = operands(element).into_iter().map(|operand| {
+        (
+            rung.place(operand.within),
+            format!("operand {}", operand.name),
+        )
+    });
+    std::iter::once((rung.place(element.within), format!("{element:?}")))
         .chain(operands)
         .collect()
 }

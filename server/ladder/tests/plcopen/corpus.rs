@@ -125,7 +125,7 @@ fn no_contact_or_coil_of_a_real_file_is_lost() {
         let program = ladder::read(text.as_bytes()).program;
         let elements = program.rungs().flat_map(|(_, rung)| {
             let elements = rung.network.elements();
-            elements.map(|(_, element)| element.span.start as usize)
+            elements.map(|(_, element)| rung.place(element.within).start as usize)
         });
         let starts: BTreeSet<_> = elements.collect();
         for tag in ["<contact ", "<coil "] {

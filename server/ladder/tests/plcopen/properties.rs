@@ -224,10 +224,10 @@ fn well_placed(text: &str) -> Result<(), TestCaseError> {
     for (_, rung) in reading.program.rungs() {
         prop_assert!(inside(rung.span));
         for (_, element) in rung.network.elements() {
-            prop_assert!(inside(element.span));
+            prop_assert!(inside(rung.place(element.within)));
             let kind = &element.kind;
             for operand in kind.reads().into_iter().chain(kind.writes()) {
-                prop_assert!(inside(operand.span), "{}", operand.name);
+                prop_assert!(inside(rung.place(operand.within)), "{}", operand.name);
             }
         }
     }

@@ -32,7 +32,7 @@ fn check(file: &Path, text: &str, program: &Program) -> usize {
     for (_, rung) in program.rungs() {
         for (_, found) in rung.network.elements() {
             let what = element(&found.kind);
-            let written = at(found.span);
+            let written = at(rung.place(found.within));
             if matches!(found.kind, ElementKind::Rail) {
                 continue;
             }
@@ -41,17 +41,20 @@ fn check(file: &Path, text: &str, program: &Program) -> usize {
                 "{what} of {} stands at {written:?}",
                 file.display()
             );
-            assert!(rung.span.cover(found.span) == rung.span, "{what}");
+            assert!(
+                rung.span.cover(rung.place(found.within)) == rung.span,
+                "{what}"
+            );
             for operand in operands(&found.kind) {
                 looked_at += 1;
                 let declared = program.declarations.find(&operand.name);
                 let addressed = declared.is_some_and(|found| found.address.is_some());
                 assert!(
-                    addressed || names(at(operand.span), &operand.name),
+                    addressed || names(at(rung.place(operand.within)), &operand.name),
                     "`{}` of {what} in {} stands at {:?}",
                     operand.name,
                     file.display(),
-                    at(operand.span)
+                    at(rung.place(operand.within))
                 );
             }
         }

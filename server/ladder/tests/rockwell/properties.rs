@@ -21,9 +21,9 @@ fn places_are_inside(text: &[u8], reading: &Reading) {
     for (_, rung) in reading.program.rungs() {
         assert!(inside(rung.span), "rung {}", rung.number);
         for (_, element) in rung.network.elements() {
-            assert!(inside(element.span), "{element:?}");
+            assert!(inside(rung.place(element.within)), "{element:?}");
             for operand in shown::operands(element) {
-                assert!(inside(operand.span), "{operand:?}");
+                assert!(inside(rung.place(operand.within)), "{operand:?}");
             }
         }
     }
@@ -71,7 +71,7 @@ proptest! {
         for (_, rung) in reading.program.rungs() {
             for (_, element) in rung.network.elements() {
                 for operand in shown::operands(element) {
-                    let written = &text[operand.span.range()];
+                    let written = &text[rung.place(operand.within).range()];
                     prop_assert_eq!(written.to_lowercase(), operand.name.to_lowercase());
                 }
             }

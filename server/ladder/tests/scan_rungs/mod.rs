@@ -30,12 +30,9 @@ pub fn program(text: &str) -> Program {
         }
         if indented {
             let routine = program.routines.last_mut().expect("a routine first");
-            routine.rungs.push(Rung {
-                number: routine.rungs.len() as u32,
-                comment: None,
-                network: network(content, start),
-                span,
-            });
+            let number = routine.rungs.len() as u32;
+            let drawn = network(content, start);
+            routine.rungs.push(Rung::new(number, None, drawn, span));
         } else {
             program.routines.push(routine(content, span));
         }
@@ -77,7 +74,7 @@ struct Reader<'t> {
     builder: NetworkBuilder,
 }
 
-fn network(text: &str, base: usize) -> ladder::Network {
+fn network(text: &str, base: usize) -> ladder::Placed {
     let mut reader = Reader {
         text,
         at: 0,

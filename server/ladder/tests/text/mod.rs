@@ -7,7 +7,7 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use ladder::{ContactKind, Element, ElementKind, Gate, Network, Operand, Program};
+use ladder::{ContactKind, Element, ElementKind, Gate, Network, Operand, Program, Rung, Within};
 use source::{LineIndex, Span};
 
 /// The text of a file under `fixtures`.
@@ -112,21 +112,21 @@ pub fn network_said(network: &Network) -> String {
 }
 
 fn without_places(kind: &mut ElementKind) {
-    let clear = |operand: &mut Operand| operand.span = Span::default();
+    let clear = |operand: &mut Operand| operand.within = Within::default();
     kind.variables_mut().into_iter().for_each(clear);
     kind.destination_mut().into_iter().for_each(clear);
 }
 
-/// Every place that a network mentions.
-pub fn places(network: &Network) -> Vec<Span> {
+/// Every place that a rung mentions.
+pub fn places(rung: &Rung) -> Vec<Span> {
     let mut all = Vec::new();
-    for (_, element) in network.elements() {
-        all.push(element.span);
+    for (_, element) in rung.network.elements() {
+        all.push(element.within);
         let kind = &element.kind;
-        all.extend(kind.reads().iter().map(|operand| operand.span));
-        all.extend(kind.writes().iter().map(|operand| operand.span));
+        all.extend(kind.reads().iter().map(|operand| operand.within));
+        all.extend(kind.writes().iter().map(|operand| operand.within));
     }
-    all
+    all.into_iter().map(|within| rung.place(within)).collect()
 }
 
 /// The one coil of a network of contacts, if power reaches it.

@@ -33,10 +33,9 @@ impl Place {
     pub fn span(&self, program: &Program) -> Span {
         let routine = program.routines.get(self.routine);
         let rung = routine.and_then(|routine| routine.rungs.get(self.rung));
-        let network = rung.map(|rung| &rung.network);
-        let network = network.filter(|network| self.element < network.len());
-        network.map_or(Span::default(), |network| {
-            network.element(NodeIndex::new(self.element)).span
+        let rung = rung.filter(|rung| self.element < rung.network.len());
+        rung.map_or(Span::default(), |rung| {
+            rung.place(rung.network.element(NodeIndex::new(self.element)).within)
         })
     }
 }

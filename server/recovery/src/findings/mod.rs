@@ -59,17 +59,21 @@ impl Subject<'_> {
         routine.rungs.get(place.rung)
     }
 
-    fn element(&self, place: Place) -> Option<&Element> {
-        let network = &self.rung(place)?.network;
-        (place.element < network.len()).then(|| network.element(NodeIndex::new(place.element)))
+    fn element(&self, place: Place) -> Option<(&Rung, &Element)> {
+        let rung = self.rung(place)?;
+        let exists = place.element < rung.network.len();
+        exists.then(|| (rung, rung.network.element(NodeIndex::new(place.element))))
     }
 
     /// The variable's name at the element that writes it, else the element.
     fn target_span(&self, write: &Write) -> Span {
-        match self.element(write.place).map(|element| &element.kind) {
-            Some(ElementKind::Coil(coil)) => coil.operand.span,
-            Some(ElementKind::Assign(assignment)) => assignment.target.span,
-            _ => write.place.span(self.program),
+        let Some((rung, element)) = self.element(write.place) else {
+            return Span::default();
+        };
+        match &element.kind {
+            ElementKind::Coil(coil) => rung.place(coil.operand.within),
+            ElementKind::Assign(assignment) => rung.place(assignment.target.within),
+            _ => rung.place(element.within),
         }
     }
 

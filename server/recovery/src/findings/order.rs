@@ -32,7 +32,7 @@ pub(super) fn find(subject: &Subject<'_>) -> Vec<Diagnostic> {
                 reads
                     .entry(atom)
                     .or_default()
-                    .push((at, contact.operand.span));
+                    .push((at, rung.place(contact.operand.within)));
             }
         }
     }

@@ -25,7 +25,7 @@ pub(super) fn find(subject: &Subject<'_>) -> Vec<Diagnostic> {
             let name = &contact.operand.name;
             let suspicious = !comes_from_outside(subject, name) && !is_written(name, &written);
             if suspicious && seen.insert(name) {
-                contacts.insert(contact.operand.span, name);
+                contacts.insert(rung.place(contact.operand.within), name);
             }
         }
     }

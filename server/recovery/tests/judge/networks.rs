@@ -1,6 +1,8 @@
 //! Random networks: everything that may stand on a rung, joined in every way
 //! that a network allows.
 
+use std::sync::Arc;
+
 use ladder::{
     Block, Coil, CoilKind, Comparison, Contact, ContactKind, Counter, CounterKind, Edge,
     ElementKind, Familiarity, Gate, Network, NetworkBuilder, OneShot, Operand, Pin, PinDirection,
@@ -172,11 +174,11 @@ pub fn shape(
 }
 
 /// Networks drawn as branches within branches.
-pub fn drawn() -> impl Strategy<Value = Network> {
+pub fn drawn() -> impl Strategy<Value = Arc<Network>> {
     shape(element(), 16).prop_map(|shape| {
         let mut builder = NetworkBuilder::new(Span::default());
         shape.draw(&mut builder, vec![Network::rail()]);
-        builder.finish()
+        builder.finish().network
     })
 }
 
@@ -199,7 +201,7 @@ fn joint() -> impl Strategy<Value = Joint> {
 /// Networks of elements joined at random from earlier to later ones: bridges,
 /// elements without a source, pins, negated and edge wires, several wires
 /// between the same two.
-pub fn wired() -> impl Strategy<Value = Network> {
+pub fn wired() -> impl Strategy<Value = Arc<Network>> {
     let elements = (element(), prop::collection::vec(joint(), 0..4));
     prop::collection::vec(elements, 0..10).prop_map(|elements| {
         let mut builder = NetworkBuilder::new(Span::default());
@@ -219,7 +221,7 @@ pub fn wired() -> impl Strategy<Value = Network> {
             }
             kinds.push(kind);
         }
-        builder.finish()
+        builder.finish().network
     })
 }
 

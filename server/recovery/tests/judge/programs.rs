@@ -9,7 +9,7 @@ use std::collections::BTreeSet;
 
 use ladder::{
     Call, Coil, CoilKind, Contact, ContactKind, ElementKind, Format, Network, NetworkBuilder,
-    Program, Role, Routine, Rung,
+    Placed, Program, Role, Routine, Rung,
 };
 use proptest::prelude::*;
 use proptest::sample::{Index, select};
@@ -155,13 +155,8 @@ fn routine(name: &str, role: Role, rungs: Vec<Rung>) -> Routine {
     }
 }
 
-fn numbered(network: Network) -> Rung {
-    Rung {
-        number: 0,
-        comment: None,
-        network,
-        span: Span::default(),
-    }
+fn numbered(drawn: Placed) -> Rung {
+    Rung::new(0, None, drawn, Span::default())
 }
 
 /// The beginning of a rung that jumps may lead to.

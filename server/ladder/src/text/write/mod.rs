@@ -166,10 +166,10 @@ fn write_rung(rung: &Rung, text: &mut String, lost: &mut Vec<Lost>) {
     if let Some(label) = label {
         head.push_str(&format!(" label {}", quoted(&label.name)));
     }
-    leave_out(network, lost);
+    leave_out(rung, lost);
     let body = match legs(network).and_then(|legs| {
-        lost.extend(order::changed(network, &legs));
-        body(network, &legs, lost)
+        lost.extend(order::changed(rung, &legs));
+        body(rung, &legs, lost)
     }) {
         Ok(body) => body,
         Err(TooTangled) => {
@@ -188,21 +188,21 @@ fn write_rung(rung: &Rung, text: &mut String, lost: &mut Vec<Lost>) {
 }
 
 /// `CONDITION -> OUTPUTS`
-fn body(network: &Network, legs: &[Leg], lost: &mut Vec<Lost>) -> Result<String, TooTangled> {
-    let Some(rung) = legs.first() else {
+fn body(rung: &Rung, legs: &[Leg], lost: &mut Vec<Lost>) -> Result<String, TooTangled> {
+    let Some(whole) = legs.first() else {
         return Ok(String::new());
     };
-    if !rung.drives.is_empty() {
-        return leg(network, legs, rung, 0, lost);
+    if !whole.drives.is_empty() {
+        return leg(rung, legs, whole, 0, lost);
     }
-    Ok(match rung.condition.is_always() {
+    Ok(match whole.condition.is_always() {
         true => String::new(),
-        false => part::text(&rung.condition, &|at| network.element(at)),
+        false => part::text(&whole.condition, &|at| rung.network.element(at)),
     })
 }
 
 fn leg(
-    network: &Network,
+    rung: &Rung,
     legs: &[Leg],
     this: &Leg,
     depth: usize,
@@ -215,36 +215,37 @@ fn leg(
     for driven in &this.drives {
         match driven {
             Driven::Output(at) => {
-                let element = network.element(*at);
+                let element = rung.network.element(*at);
                 let (output, left_out) = output::output(&element.kind);
                 outputs.push(output);
                 lost.extend(left_out.into_iter().map(|what| Lost {
-                    span: element.span,
+                    span: rung.place(element.within),
                     what,
                 }));
             }
             Driven::Leg(number) => {
                 if let Some(inner) = legs.get(*number) {
-                    let inner = leg(network, legs, inner, depth + 1, lost)?;
+                    let inner = leg(rung, legs, inner, depth + 1, lost)?;
                     outputs.push(format!("({inner})"));
                 }
             }
         }
     }
-    let condition = part::text(&this.condition, &|at| network.element(at));
+    let condition = part::text(&this.condition, &|at| rung.network.element(at));
     Ok(format!("{condition} -> {}", outputs.join(", ")))
 }
 
 /// Lists what every rung leaves out: storage bits, labels inside, further
 /// inputs of boxes, contacts that lead nowhere.
-fn leave_out(network: &Network, lost: &mut Vec<Lost>) {
+fn leave_out(rung: &Rung, lost: &mut Vec<Lost>) {
+    let network = &rung.network;
     let has_outputs = network
         .elements()
         .any(|(_, element)| cuts::is_output(&element.kind));
     for (at, element) in network.elements() {
         let mut lose = |what: String| {
             lost.push(Lost {
-                span: element.span,
+                span: rung.place(element.within),
                 what,
             });
         };

@@ -11,11 +11,12 @@ use petgraph::graph::NodeIndex;
 use super::Lost;
 use super::legs::{Driven, Leg};
 use super::part::{Kind, Part};
-use crate::Network;
+use crate::Rung;
 
 /// Contacts that the text looks at before or after a write, and the network
 /// the other way round.
-pub(super) fn changed(network: &Network, legs: &[Leg]) -> Vec<Lost> {
+pub(super) fn changed(rung: &Rung, legs: &[Leg]) -> Vec<Lost> {
+    let network = &rung.network;
     let mut writes: HashMap<&str, Vec<NodeIndex>> = HashMap::new();
     for (at, element) in network.elements() {
         for operand in element.kind.writes() {
@@ -32,7 +33,7 @@ pub(super) fn changed(network: &Network, legs: &[Leg]) -> Vec<Lost> {
                 .map_or(0, |all| all.partition_point(|write| *write < at));
             if before != written.get(&*operand.name).copied().unwrap_or(0) {
                 lost.push(Lost {
-                    span: element.span,
+                    span: rung.place(element.within),
                     what: format!("at what moment of the scan `{}` is looked at", operand.name),
                 });
             }
