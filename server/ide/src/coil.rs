@@ -117,8 +117,8 @@ pub fn coil<'a>(variable: &'a Variable, analysis: &'a Analysis, budget: &Budget)
         description: analysis.description(&variable.name),
         conditions: next.and_then(|next| four(next, variable.atom, &mut words)),
         resolved,
-        persistent: variable.is_persistent(budget) && !variable.kept_when_skipped,
-        part: part(variable, analysis, budget),
+        persistent: variable.is_persistent() && !variable.kept_when_skipped,
+        part: part(variable, analysis),
         interlocks: interlocks(variable, analysis),
         opaque: opaque
             .into_iter()
@@ -138,7 +138,7 @@ fn four(next: &Function, atom: AtomId, words: &mut Words<'_>) -> Option<Said> {
     })
 }
 
-fn part(variable: &Variable, analysis: &Analysis, budget: &Budget) -> Part {
+fn part(variable: &Variable, analysis: &Analysis) -> Part {
     let atom = variable.atom;
     if analysis.states().state(atom).is_some() {
         Part::State
@@ -148,9 +148,9 @@ fn part(variable: &Variable, analysis: &Analysis, budget: &Budget) -> Part {
         Part::TooLarge
     } else if variable.kept_when_skipped {
         Part::KeptWhenSkipped
-    } else if variable.is_persistent(budget) {
+    } else if variable.is_persistent() {
         Part::Keeps
-    } else if variable.falls_in_itself(budget) {
+    } else if variable.falls_in_itself() {
         Part::Oscillates
     } else if analysis.states().auxiliaries.contains(atom) {
         Part::Auxiliary

@@ -1,12 +1,22 @@
-use std::collections::HashMap;
+use std::hash::{Hash, Hasher};
 use std::sync::Arc;
+
+use foldhash::HashMap;
 
 use crate::{Atom, Name};
 
 /// Identifies an atom in its [`Atoms`] table. The order of the numbers is the
 /// order of the variables in every diagram and every printed product.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct AtomId(pub u64);
+
+impl Hash for AtomId {
+    /// Most numbers differ in their upper half alone, and simple hashes look at
+    /// the lower bits.
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        state.write_u64(self.0.rotate_left(32));
+    }
+}
 
 /// Numbers left free behind an atom, so that others find room between it and
 /// the next when a program is edited.

@@ -93,6 +93,11 @@ fn variable(atom: AtomId, writes: Vec<Write>, walk: &mut Walk<'_>) -> Variable {
         },
         atom,
         kept_when_skipped,
+        grows: next
+            .as_ref()
+            .ok()
+            .filter(|it| it.depends_on(atom))
+            .and_then(|it| it.grows_in(atom, walk.budget).ok()),
         closed_contacts: closed_contacts.into_iter().collect(),
         next,
         writes,

@@ -56,6 +56,7 @@ pub struct Conditions {
     pub work: Work,
     places: FxHashMap<AtomId, usize>,
     rungs: Rungs,
+    pub(crate) execution: flow::Execution,
     /// What each operation was allowed, if nobody ended the work early.
     allowed: Option<[usize; 2]>,
 }
@@ -87,6 +88,9 @@ pub struct Variable {
     /// Coils of other variables that stand as normally closed contacts before
     /// its own, in the order of their atoms.
     pub closed_contacts: Vec<AtomId>,
+    /// Whether raising the variable never makes its next value fall; `None`
+    /// where that does not depend on it, or could not be told.
+    grows: Option<bool>,
 }
 
 impl Variable {
@@ -106,17 +110,13 @@ impl Variable {
     }
 
     /// Whether the rung holds a state: its next value grows with its value.
-    pub fn is_persistent(&self, budget: &Budget) -> bool {
-        self.next.as_ref().is_ok_and(|next| {
-            next.depends_on(self.atom) && next.grows_in(self.atom, budget) == Ok(true)
-        })
+    pub fn is_persistent(&self) -> bool {
+        self.grows == Some(true)
     }
 
     /// Whether raising the coil makes its own condition fall (an oscillator).
-    pub fn falls_in_itself(&self, budget: &Budget) -> bool {
-        self.next.as_ref().is_ok_and(|next| {
-            next.depends_on(self.atom) && next.grows_in(self.atom, budget) == Ok(false)
-        })
+    pub fn falls_in_itself(&self) -> bool {
+        self.grows == Some(false)
     }
 }
 
@@ -139,6 +139,19 @@ impl Conditions {
     /// Whether nobody ended the work early.
     pub fn is_whole(&self) -> bool {
         self.allowed.is_some()
+    }
+
+    /// The contacts of a rung: the element of each, and its variable. None of a
+    /// rung that is never visited.
+    pub(crate) fn contacts(
+        &self,
+        routine: usize,
+        rung: usize,
+    ) -> impl Iterator<Item = (usize, AtomId)> {
+        let solved = self.rungs.get((routine, rung));
+        solved
+            .into_iter()
+            .flat_map(|it| it.contacts.iter().copied())
     }
 
     /// A function as a canonical expression.
@@ -208,6 +221,7 @@ fn computed(program: &Program, earlier: Option<Earlier<'_>>, budget: &Budget) ->
             variables: folded,
         },
         rungs,
+        execution,
         allowed: (!budget.cancel.is_cancelled()).then(|| allowed(budget)),
     }
 }

@@ -3,8 +3,8 @@
 //! The order is that of the paper's Table 5. It decides how conditions print
 //! and, for the paper's own rule (`cubes`), what that rule finds.
 
+use foldhash::{HashMap, HashMapExt, HashSet, HashSetExt};
 use std::cmp::Ordering;
-use std::collections::{HashMap, HashSet};
 
 use ladder::{Declarations, ElementKind, Program};
 use logic::{Atom, Name};

@@ -31,6 +31,8 @@ pub(super) struct Solved {
     pub(super) opaque: HashSet<AtomId>,
     /// Every atom that it asks for, in the order of first asking.
     pub(super) atoms: Vec<AtomId>,
+    /// The element of every contact, and its variable.
+    pub(super) contacts: Vec<(usize, AtomId)>,
     /// Whether it depends on the zone around it: several of its coils write
     /// the same variable, so that the later see what the earlier did there.
     pub(super) rewrites: bool,
@@ -94,6 +96,7 @@ fn solved(network: &Network, zone: &Result<Function, Stop>, walk: &mut Walk<'_>)
         steering: Vec::new(),
         opaque: HashSet::new(),
         atoms: Vec::new(),
+        contacts: Vec::new(),
         rewrites: solving.rewrites(),
     };
     for (at, element) in network.elements() {
@@ -103,6 +106,10 @@ fn solved(network: &Network, zone: &Result<Function, Stop>, walk: &mut Walk<'_>)
             found.events.push(event.into());
         }
         let power = || solving.powers.at(at).cloned();
+        if let ElementKind::Contact(contact) = &element.kind {
+            let atom = walk.atoms.add_variable(&contact.operand.name);
+            found.contacts.push((at.index(), atom));
+        }
         if let ElementKind::Timer(timer) = &element.kind {
             found.timers.push(Timed {
                 element: at.index(),

@@ -55,9 +55,19 @@ pub(super) fn solve_all(
         for _ in 0..ROUNDS {
             let mut atoms = Atoms::following(&known, order(&named, &rungs, &visited, &known));
             rungs.forget(&known.missing_in(&atoms));
-            anew += rungs.solve_missing(program, &visited, &mut atoms, budget);
-            let wanted = order(&named, &rungs, &visited, &atoms);
-            if atoms.iter().map(|(_, atom)| atom).eq(&wanted) {
+            let last_named = named.len().checked_sub(1).and_then(|last| atoms.at(last));
+            let solved = rungs.solve_missing(program, &visited, &mut atoms, budget);
+            anew += solved.len();
+            // Nothing but names was asked for, or it comes where it did.
+            let asks = |it: &Arc<Solved>| it.atoms.iter().any(|atom| Some(*atom) > last_named);
+            let settled = !solved
+                .iter()
+                .any(|place| rungs.get(*place).is_some_and(asks))
+                || {
+                    let wanted = order(&named, &rungs, &visited, &atoms);
+                    atoms.iter().map(|(_, atom)| atom).eq(&wanted)
+                };
+            if settled {
                 return Solution { rungs, atoms, anew };
             }
             known = atoms;
@@ -65,7 +75,9 @@ pub(super) fn solve_all(
     }
     let mut rungs = Rungs::none(program);
     let mut atoms = Atoms::following(&Atoms::new(), named);
-    anew += rungs.solve_missing(program, &visited, &mut atoms, budget);
+    anew += rungs
+        .solve_missing(program, &visited, &mut atoms, budget)
+        .len();
     Solution { rungs, atoms, anew }
 }
 
@@ -150,17 +162,16 @@ impl Rungs {
         }
     }
 
-    /// Solves what has not been solved. The answer is how many rungs that
-    /// were.
+    /// Solves what has not been solved. The answer is which rungs that were.
     fn solve_missing(
         &mut self,
         program: &Program,
         visited: &[(usize, usize)],
         atoms: &mut Atoms,
         budget: &Budget,
-    ) -> usize {
+    ) -> Vec<(usize, usize)> {
         let always = Ok(Function::constant(true));
-        let mut count = 0;
+        let mut found = Vec::new();
         for &(routine, at) in visited {
             let Some(solved) = self.0.get_mut(routine).and_then(|it| it.get_mut(at)) else {
                 continue;
@@ -175,9 +186,9 @@ impl Rungs {
             };
             let network = &program.routines[routine].rungs[at].network;
             *solved = Some(rung::solve(network, &always, &mut walk).into());
-            count += 1;
+            found.push((routine, at));
         }
-        count
+        found
     }
 }
 

@@ -17,7 +17,11 @@ pub(super) fn find(subject: &Subject<'_>) -> Vec<Diagnostic> {
     let mut found = Vec::new();
     for (name, write) in writes {
         let Ok(guard) = &write.guard else { continue };
-        if !matches!(write.kind, WriteKind::Coil(_)) || !has_contacts(subject, write) {
+        let is_constant = guard.is_true() || guard.is_false();
+        if !is_constant
+            || !matches!(write.kind, WriteKind::Coil(_))
+            || !has_contacts(subject, write)
+        {
             continue;
         }
         let span = subject.target_span(write);

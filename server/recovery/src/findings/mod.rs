@@ -13,8 +13,8 @@ mod too_large;
 mod unwritten;
 mod words;
 
-use ladder::{Element, ElementKind, Program, Rung, flow};
-use logic::Budget;
+use ladder::{Element, ElementKind, Program, Rung};
+use logic::{Budget, Name};
 use petgraph::graph::NodeIndex;
 use source::{Diagnostic, Span};
 
@@ -35,7 +35,7 @@ pub fn findings(program: &Program, conditions: &Conditions, budget: &Budget) -> 
         conditions,
         budget,
     };
-    let mut found = flow::execution(program).diagnostics;
+    let mut found = conditions.execution.diagnostics.clone();
     for find in [
         constant::find,
         double_coil::find,
@@ -63,6 +63,18 @@ impl Subject<'_> {
         let rung = self.rung(place)?;
         let exists = place.element < rung.network.len();
         exists.then(|| (rung, rung.network.element(NodeIndex::new(place.element))))
+    }
+
+    /// The variable of the contact at a place, and where it is named.
+    fn contact(&self, place: Place) -> Option<(&Name, Span)> {
+        let (rung, element) = self.element(place)?;
+        match &element.kind {
+            ElementKind::Contact(contact) => {
+                let operand = &contact.operand;
+                Some((&operand.name, rung.place(operand.within)))
+            }
+            _ => None,
+        }
     }
 
     /// The variable's name at the element that writes it, else the element.

@@ -9,7 +9,7 @@ pub(super) fn find(subject: &Subject<'_>) -> Vec<Diagnostic> {
         .conditions
         .variables
         .iter()
-        .filter(|variable| variable.falls_in_itself(subject.budget))
+        .filter(|variable| variable.falls_in_itself())
         .filter_map(|variable| Some((variable, variable.writes.last()?)))
         .map(|(variable, write)| {
             Diagnostic::new(

@@ -1,34 +1,46 @@
-use std::collections::{BTreeMap, HashSet};
-
-use ladder::{Class, ElementKind};
+use foldhash::{HashSet, HashSetExt};
+use ladder::Class;
 use logic::Name;
+use rustc_hash::FxHashSet;
 use source::{Diagnostic, Span, codes};
 
 use super::Subject;
+use crate::conditions::Place;
 
 /// Contacts of names that nothing in the file writes and no declaration gives
 /// as an input. Each name is reported once, at its first contact.
 pub(super) fn find(subject: &Subject<'_>) -> Vec<Diagnostic> {
+    let mut seen = FxHashSet::default();
+    let mut contacts: Vec<(Span, &Name)> = Vec::new();
+    for (routine, it) in subject.program.routines.iter().enumerate() {
+        for rung in 0..it.rungs.len() {
+            for (element, atom) in subject.conditions.contacts(routine, rung) {
+                if !seen.insert(atom) || subject.conditions.variable(atom).is_some() {
+                    continue;
+                }
+                let place = Place {
+                    routine,
+                    rung,
+                    element,
+                };
+                if let Some((name, span)) = subject.contact(place)
+                    && !comes_from_outside(subject, name)
+                {
+                    contacts.push((span, name));
+                }
+            }
+        }
+    }
+    if contacts.is_empty() {
+        return Vec::new();
+    }
     let mut written: HashSet<&str> = HashSet::new();
     for (_, rung) in subject.program.rungs() {
         for (_, element) in rung.network.elements() {
             written.extend(element.kind.writes().iter().map(|operand| &*operand.name));
         }
     }
-    let mut contacts: BTreeMap<Span, &Name> = BTreeMap::new();
-    let mut seen: HashSet<&str> = HashSet::new();
-    for (_, rung) in subject.program.rungs() {
-        for (_, element) in rung.network.elements() {
-            let ElementKind::Contact(contact) = &element.kind else {
-                continue;
-            };
-            let name = &contact.operand.name;
-            let suspicious = !comes_from_outside(subject, name) && !is_written(name, &written);
-            if suspicious && seen.insert(name) {
-                contacts.insert(rung.place(contact.operand.within), name);
-            }
-        }
-    }
+    contacts.retain(|(_, name)| !is_written(name, &written));
     contacts
         .into_iter()
         .map(|(span, name)| {
