@@ -9,10 +9,8 @@
 use std::borrow::Cow;
 use std::collections::HashMap;
 
-use logic::Name;
+use logic::{Datum, Name};
 
-use super::Datum;
-use super::datum::constant;
 use super::term::evaluate;
 use crate::{Declarations, Operand, Program};
 
@@ -51,7 +49,7 @@ impl State {
             }
         }
         for declaration in declarations.iter() {
-            if let Some(value) = declaration.initial.as_deref().and_then(constant) {
+            if let Some(value) = declaration.initial.as_deref().and_then(Datum::constant) {
                 self.write(&declaration.name, value);
             }
         }
@@ -75,7 +73,7 @@ impl State {
         if let Some(value) = self.values.get(name) {
             return *value;
         }
-        if let Some(value) = constant(name) {
+        if let Some(value) = Datum::constant(name) {
             return value;
         }
         let name = self.resolved(name);
