@@ -1,6 +1,5 @@
 //! One evolution: everything that can be cleared is cleared, at once.
 
-use super::condition::{Condition, View};
 use super::hierarchy;
 use super::net::{Net, State};
 use super::storing;
@@ -19,7 +18,7 @@ pub(super) struct Fired {
 pub(super) fn sample(net: &Net, state: &mut State, now: u64) -> Vec<bool> {
     let mut occurring = vec![false; net.edges.len()];
     for (at, edge) in net.edges.iter().enumerate() {
-        let is_on = holds(&edge.of, state, &occurring, now);
+        let is_on = edge.of.holds(&state.view(&occurring, now));
         let was_on = std::mem::replace(&mut state.looked_at[at], is_on);
         occurring[at] = match edge.is_falling {
             true => was_on && !is_on,
@@ -32,6 +31,7 @@ pub(super) fn sample(net: &Net, state: &mut State, now: u64) -> Vec<bool> {
 /// Clears all transitions that can be, together, each judged by the situation
 /// and the values before any of them is cleared.
 pub(super) fn evolve(net: &Net, state: &mut State, edges: &[bool], now: u64) -> Fired {
+    let view = state.view(edges, now);
     let all = net.transitions.iter().enumerate();
     let transitions: Vec<usize> = all
         .filter(|(_, transition)| {
@@ -39,7 +39,7 @@ pub(super) fn evolve(net: &Net, state: &mut State, edges: &[bool], now: u64) -> 
             let is_enabled = transition.from.is_some() && from.all(|step| state.active[*step]);
             is_enabled
                 && !hierarchy::is_held(net, state, transition)
-                && holds(&transition.receptivity, state, edges, now)
+                && transition.receptivity.holds(&view)
         })
         .map(|(at, _)| at)
         .collect();
@@ -75,14 +75,4 @@ pub(super) fn tell(net: &Net, state: &mut State, before: &[bool], edges: &[bool]
         }
     }
     storing::on_change(net, state, edges, now, before);
-}
-
-fn holds(condition: &Condition, state: &State, edges: &[bool], now: u64) -> bool {
-    condition.holds(&View {
-        active: &state.active,
-        since: &state.since,
-        values: &state.values,
-        edges,
-        now,
-    })
 }

@@ -1,7 +1,6 @@
 //! What macro-steps, enclosing steps and forcing orders make of a situation
 //! (IEC 60848, clause 7).
 
-use super::condition::View;
 use super::net::{Imposed, Kind, Net, Order, Part, State, Transition};
 
 /// Whether something above it keeps the transition from being cleared: an
@@ -124,13 +123,7 @@ fn derive(net: &Net, state: &mut State) {
 fn impose(net: &Net, state: &mut State, edges: &[bool], now: u64) -> bool {
     let mut obeyed = vec![None; net.parts.len()];
     {
-        let view = View {
-            active: &state.active,
-            since: &state.since,
-            values: &state.values,
-            edges,
-            now,
-        };
+        let view = state.view(edges, now);
         for (at, order) in net.orders.iter().enumerate() {
             let is_given = view.is_active(order.step) && order.condition.holds(&view);
             if is_given && obeyed[order.part].is_none() {

@@ -9,7 +9,7 @@ use std::collections::HashMap;
 
 use logic::{Datum, Name};
 
-use super::condition::{Condition, Edge};
+use super::condition::{Condition, Edge, View};
 use super::term::Term;
 
 #[derive(Clone, Debug, Default)]
@@ -191,6 +191,17 @@ pub(super) struct State {
 }
 
 impl State {
+    /// What expressions see at a moment in which these edges occur.
+    pub(super) fn view<'s>(&'s self, edges: &'s [bool], now: u64) -> View<'s> {
+        View {
+            active: &self.active,
+            since: &self.since,
+            values: &self.values,
+            edges,
+            now,
+        }
+    }
+
     /// Whether nothing differs. A number that is none (NaN) is the same as
     /// itself here, unlike where numbers are compared.
     pub(super) fn is_same(&self, other: &Self) -> bool {

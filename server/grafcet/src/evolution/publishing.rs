@@ -9,7 +9,7 @@
 use petgraph::algo::tarjan_scc;
 use petgraph::graph::{DiGraph, NodeIndex};
 
-use super::condition::{Condition, View};
+use super::condition::Condition;
 use super::net::{Continuous, Net, State};
 
 /// Adds a continuous action.
@@ -58,13 +58,7 @@ pub(super) fn arrange(net: &mut Net) {
 /// occurred in this scan.
 pub(super) fn publish(net: &Net, state: &mut State, edges: &[bool], now: u64) {
     for circle in &net.continuous {
-        let view = View {
-            active: &state.active,
-            since: &state.since,
-            values: &state.values,
-            edges,
-            now,
-        };
+        let view = state.view(edges, now);
         let acts = |output: &Continuous| {
             let mut acts = output.acts.iter();
             acts.any(|(step, condition)| view.is_active(*step) && condition.holds(&view))

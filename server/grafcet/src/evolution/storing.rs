@@ -2,7 +2,6 @@
 
 use logic::Datum;
 
-use super::condition::View;
 use super::net::{Effect, Net, On, State, Stored};
 
 /// Performs the stored actions that `is_due` picks. All conditions are looked
@@ -17,7 +16,7 @@ pub(super) fn perform(
     is_due: impl Fn(&Stored) -> bool,
 ) {
     let due: Vec<&Stored> = {
-        let view = view(state, edges, now);
+        let view = state.view(edges, now);
         let due = net.stored.iter().filter(|action| is_due(action));
         due.filter(|action| action.condition.holds(&view)).collect()
     };
@@ -25,7 +24,7 @@ pub(super) fn perform(
         let value = match &action.effect {
             Effect::Set => true.into(),
             Effect::Reset => false.into(),
-            Effect::Assign(term) => term.value(&view(state, edges, now)),
+            Effect::Assign(term) => term.value(&state.view(edges, now)),
         };
         write(net, state, action.variable, value);
     }
@@ -51,16 +50,6 @@ pub(super) fn on_change(net: &Net, state: &mut State, edges: &[bool], now: u64, 
     perform(net, state, edges, now, |action| {
         action.on == On::Activation && !before[action.step] && active[action.step]
     });
-}
-
-fn view<'s>(state: &'s State, edges: &'s [bool], now: u64) -> View<'s> {
-    View {
-        active: &state.active,
-        since: &state.since,
-        values: &state.values,
-        edges,
-        now,
-    }
 }
 
 fn write(net: &Net, state: &mut State, variable: usize, value: Datum) {
