@@ -76,6 +76,16 @@ impl Datum {
         }
     }
 
+    /// The value as two numbers, equal where nothing tells the values apart. A
+    /// number that is none (NaN) is itself here; on and 1 differ.
+    pub fn key(self) -> [u64; 2] {
+        match self {
+            Self::Bool(on) => [0, u64::from(on)],
+            Self::Integer(number) => [1, number.cast_unsigned()],
+            Self::Real(number) => [2, number.to_bits()],
+        }
+    }
+
     /// Whether the relation holds between two values. Nothing holds with a
     /// number that is none (NaN) but `<>`.
     pub fn compares(self, relation: Relation, other: Self) -> bool {

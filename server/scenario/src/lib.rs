@@ -27,4 +27,4 @@ pub use model::{
     Change, DEFAULT_CYCLE_MS, Expectation, FileName, Passing, Scenario, Step, Test, Timing,
 };
 pub use read::{Reading, is_scenario, read};
-pub use write::write;
+pub use write::{done, write};

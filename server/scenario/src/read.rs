@@ -77,31 +77,51 @@ fn apply(scenario: &mut Scenario, statement: Statement, text: &str, line: &Line)
     }
 }
 
-/// Whether `text` looks like a scenario: its first line that says anything
-/// could begin nothing else, or some line expects something of a step.
+/// Whether `text` looks like a scenario: it begins with lines that could begin
+/// nothing else, or some line expects something of a step.
 pub fn is_scenario(text: &str) -> bool {
-    let lines = lines(text);
-    let mut lines = lines.iter().filter(|line| !line.tokens.is_empty());
-    let says = |line: &Line| statement(text, line).ok();
-    let expects = |line: &Line| {
-        says(line).is_some_and(
-            |said| matches!(said, Statement::Step(step) if step.only || !step.expected.is_empty()),
-        )
+    let body = text.trim_start_matches('\u{feff}');
+    let mut raw_lines = body.lines().filter(|raw| {
+        let raw = raw.trim_start();
+        !raw.is_empty() && !raw.starts_with("//")
+    });
+    let first_sign = raw_lines.by_ref().map(sign).find(|it| *it != Sign::Open);
+    match first_sign {
+        Some(Sign::Scenario) => true,
+        Some(_) => raw_lines.any(|raw| raw.contains("=>") && sign(raw) == Sign::Scenario),
+        None => false,
+    }
+}
+
+/// What a line says about the text that it stands in.
+#[derive(PartialEq)]
+enum Sign {
+    Scenario,
+    /// It could stand in a scenario, and elsewhere.
+    Open,
+    Other,
+}
+
+fn sign(raw: &str) -> Sign {
+    let Some(line) = lines(raw).into_iter().find(|it| !it.tokens.is_empty()) else {
+        return Sign::Open;
     };
-    let Some(first) = lines.next() else {
-        return false;
+    let is_quoted = |at: usize| {
+        let token = line.tokens.get(at);
+        token.is_some_and(|token| token.kind == TokenKind::Quoted)
     };
-    let begins = match says(first) {
-        Some(Statement::Title(_)) => {
-            let title = first.tokens.get(1);
-            title.is_some_and(|title| title.kind == TokenKind::Quoted)
-        }
-        Some(Statement::Timing(_) | Statement::Cycle(_)) => true,
-        Some(Statement::Step(step)) => {
+    match statement(raw, &line) {
+        Ok(Statement::Timing(_) | Statement::Cycle(_)) => Sign::Scenario,
+        Ok(Statement::Title(_)) if is_quoted(1) => Sign::Scenario,
+        Ok(Statement::Title(_)) | Err(_) => Sign::Other,
+        Ok(Statement::Files(_)) => Sign::Open,
+        Ok(Statement::Step(step)) => {
             let is_bit = |change: &Change| matches!(change.value, Datum::Bool(_));
-            step.changes.iter().any(is_bit) || matches!(step.passing, Passing::Wait(_))
+            let is_sign = step.only
+                || !step.expected.is_empty()
+                || step.changes.iter().any(is_bit)
+                || matches!(step.passing, Passing::Wait(_));
+            if is_sign { Sign::Scenario } else { Sign::Open }
         }
-        Some(Statement::Files(_)) | None => false,
-    };
-    begins || expects(first) || lines.any(expects)
+    }
 }

@@ -30,7 +30,8 @@ pub fn write(scenario: &Scenario) -> String {
     }
 }
 
-fn step(step: &Step) -> String {
+/// What a step does, as its line says it: `on s, wait 5s`.
+pub fn done(step: &Step) -> String {
     let mut done: Vec<String> = step.changes.iter().map(change).collect();
     match step.passing {
         Passing::Scans(1) if !done.is_empty() => {}
@@ -38,7 +39,11 @@ fn step(step: &Step) -> String {
         Passing::Scans(number) => done.push(format!("scan {number}")),
         Passing::Wait(length) => done.push(format!("wait {}", time(length))),
     }
-    let mut text = done.join(", ");
+    done.join(", ")
+}
+
+fn step(step: &Step) -> String {
+    let mut text = done(step);
     if step.only || !step.expected.is_empty() {
         text += if step.only { " => only " } else { " => " };
         let expected: Vec<String> = step.expected.iter().map(expectation).collect();

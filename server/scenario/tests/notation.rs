@@ -160,6 +160,7 @@ fn a_scenario_is_known_by_what_it_says() {
         "this is broken\non s => on v1\n",
         "timing settled",
         "Level = 5 => only",
+        "for tank.ladder\n\nscan\nLevel = 5\noff s\n",
     ] {
         assert!(is_scenario(text), "{text}");
     }

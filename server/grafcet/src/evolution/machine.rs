@@ -192,6 +192,15 @@ impl Machine {
         outputs.map(|at| (&self.net.variables[*at], self.state.values[*at]))
     }
 
+    /// The variables that no action writes: inputs, and whatever else somebody
+    /// must give a value, in the order they are declared.
+    pub fn free(&self) -> impl Iterator<Item = &Name> {
+        let names = self.net.variables.iter().enumerate();
+        names
+            .filter(|(at, _)| !self.net.is_written(*at))
+            .map(|(_, name)| name)
+    }
+
     /// The value of a variable, or of a step's variable; 0 for an unknown
     /// name.
     pub fn value(&self, name: &str) -> Datum {
@@ -204,6 +213,12 @@ impl Machine {
     /// Whether a variable, or a step's variable, is on.
     pub fn is_on(&self, name: &str) -> bool {
         self.value(name).is_on()
+    }
+
+    /// Whether `name` is a step's, or a variable's that some action writes.
+    pub fn decides(&self, name: &str) -> bool {
+        let written = self.net.variable(name).map(|at| self.net.is_written(at));
+        written.unwrap_or_else(|| self.net.step_names.contains_key(name))
     }
 
     /// Whether `name` is a step or variable of the grafcet.

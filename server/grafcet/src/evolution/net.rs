@@ -161,6 +161,12 @@ impl Net {
         }
     }
 
+    /// Whether some action writes the variable.
+    pub(super) fn is_written(&self, variable: usize) -> bool {
+        let mut stored = self.stored.iter();
+        self.is_continuous[variable] || stored.any(|action| action.variable == variable)
+    }
+
     /// The variable called `name`, or the one that has it as its address.
     pub(super) fn variable(&self, name: &str) -> Option<usize> {
         let named = self.variable_names.get(name);
@@ -215,7 +221,7 @@ impl State {
 
     pub(super) fn has_values_of(&self, other: &Self) -> bool {
         let mut pairs = self.values.iter().zip(&other.values);
-        pairs.all(|(own, other)| bits(*own) == bits(*other))
+        pairs.all(|(own, other)| own.key() == other.key())
     }
 
     /// The state as numbers, equal where states are the same; without what
@@ -223,21 +229,12 @@ impl State {
     pub(super) fn key(&self) -> Vec<u64> {
         let active = self.active.chunks(64).map(word);
         let kept = self.kept.chunks(64).map(word);
-        let values = self.values.iter().flat_map(|value| bits(*value));
+        let values = self.values.iter().flat_map(|value| value.key());
         let obeyed = self.obeyed.iter();
         let obeyed = obeyed.map(|order| order.map_or(0, |at| at as u64 + 1));
         let since = self.since.iter().copied();
         let all = active.chain(kept).chain(values).chain(obeyed).chain(since);
         all.collect()
-    }
-}
-
-/// A value as its kind and its bits.
-fn bits(value: Datum) -> [u64; 2] {
-    match value {
-        Datum::Bool(on) => [0, u64::from(on)],
-        Datum::Integer(number) => [1, number.cast_unsigned()],
-        Datum::Real(number) => [2, number.to_bits()],
     }
 }
 

@@ -68,6 +68,16 @@ impl State {
         self.values.contains_key(&*name)
     }
 
+    /// Whether every variable has the same value.
+    pub(super) fn is_same(&self, other: &Self) -> bool {
+        let mut values = self.values.iter();
+        self.values.len() == other.values.len()
+            && values.all(|(name, value)| {
+                let other = other.values.get(name);
+                other.is_some_and(|other| other.key() == value.key())
+            })
+    }
+
     /// The value of a variable or constant; 0 before it is first written.
     pub(super) fn read(&self, name: &str) -> Datum {
         if let Some(value) = self.values.get(name) {
