@@ -39,7 +39,7 @@ fn the_diagnostics_page_lists_every_code() {
     let mut page = String::from(
         "# Diagnostics\n\n\
          Every finding has a code that never changes its meaning. The first digit says what it is about:\n\
-         1 the text of a ladder, 2 its meaning, 3 a spec, 4 files. `gradus explain CODE` prints the page.\n\n\
+         1 the text of a ladder, 2 its meaning, 3 a spec, 4 files, 5 a scenario. `gradus explain CODE` prints the page.\n\n\
          | code | severity | finding |\n|---|---|---|\n",
     );
     for entry in all["codes"].as_array().expect("a list") {

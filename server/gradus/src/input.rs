@@ -7,9 +7,12 @@ use std::path::{Path, PathBuf};
 use crate::file::Unreadable;
 use crate::io::is_standard_input;
 
-/// Endings under which ladders and specs are kept. Some are used by much else:
-/// only the content tells.
-pub const ENDINGS: &[&str] = &["ladder", "l5x", "l5k", "xml", "txt", "grafcet"];
+/// Endings of the files that are checked: ladders, specs and scenarios. Some
+/// are used by much else: only the content tells.
+pub const CHECKED: &[&str] = &["ladder", "l5x", "l5k", "xml", "txt", "grafcet", "scenario"];
+
+/// Those under which ladders and specs are kept.
+pub const ENDINGS: &[&str] = CHECKED.split_at(6).0;
 
 /// Those under which ladders are kept.
 pub const LADDER_ENDINGS: &[&str] = ENDINGS.split_at(5).0;

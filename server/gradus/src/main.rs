@@ -20,6 +20,7 @@ mod program;
 mod progress;
 mod report;
 mod status;
+mod subject;
 
 use std::process::ExitCode;
 

@@ -60,8 +60,15 @@ pub fn read(path: &Path, io: &mut Io) -> std::io::Result<Option<Ladder>> {
         }
     };
     let name = printable(&input::name(path));
-    if let language::File::Spec(_) = language::of(&bytes) {
-        io.complain(&format!("{name}: this is a spec, and a ladder is needed"));
+    let other = match language::of(&bytes) {
+        language::File::Ladder(_) => None,
+        language::File::Spec(_) => Some("spec"),
+        language::File::Scenario(_) => Some("scenario"),
+    };
+    if let Some(other) = other {
+        io.complain(&format!(
+            "{name}: this is a {other}, and a ladder is needed"
+        ));
         return Ok(None);
     }
     let reading = ladder::read(&bytes);

@@ -2,6 +2,7 @@
 //!
 //! * [`model`] is a chart as IEC 60848 sees it, with what belongs to a spec
 //!   around it: environment rules, properties, and the expert's decisions.
+//! * [`evolution`] runs it, scan by scan.
 //! * [`rules`] reads the text of a `.grafcet` file, writes it, formats it, and
 //!   [rewrites](rules::rewrite) it so that it says something new while every
 //!   line that still holds stays as a person left it.
@@ -13,6 +14,7 @@
 //! This crate knows no ladder. A step merely remembers the name of the state
 //! it stands for, as the ladder spells it.
 
+pub mod evolution;
 pub mod model;
 pub mod rules;
 

@@ -1,7 +1,8 @@
-//! What a file is: a ladder or a spec. Its content tells, never its name.
+//! What a file is: a ladder, a spec or a scenario. Its content tells, never its
+//! name.
 //!
 //! Ladders have readers that know their own marks, so the question here is only
-//! whether a text is a spec. Both of the project's notations declare inputs and
+//! whether a text is a spec or a scenario. Both of the project's notations declare inputs and
 //! outputs with the same words; what only a spec has is a rule with `|-`, a
 //! section, or a list of steps.
 
@@ -14,6 +15,8 @@ pub enum File<'f> {
     Ladder(&'f [u8]),
     /// The rule text of a grafcet.
     Spec(&'f str),
+    /// The steps of a scenario.
+    Scenario(&'f str),
 }
 
 /// What follows a rail in a drawn ladder, and never `|-` in a rule.
@@ -25,8 +28,15 @@ const SECTIONS: [&str; 4] = ["Transitions:", "Steps:", "Environment:", "Never:"]
 pub fn of(bytes: &[u8]) -> File<'_> {
     match std::str::from_utf8(bytes) {
         Ok(text) if is_spec(text) => File::Spec(text),
+        Ok(text) if is_scenario(text) => File::Scenario(text),
         _ => File::Ladder(bytes),
     }
+}
+
+/// Boxes of a rung hand values over with the arrow that scenarios have too.
+fn is_scenario(text: &str) -> bool {
+    let body = text.strip_prefix('\u{feff}').unwrap_or(text).trim_start();
+    !body.starts_with('<') && !body.lines().any(begins_rung) && scenario::is_scenario(body)
 }
 
 fn is_spec(text: &str) -> bool {
@@ -92,6 +102,14 @@ mod tests {
         assert!(!is_spec("Drain: |-| |--( b )---|\n"));
         assert!(!is_spec("<project>t1: a |- b</project>"));
         assert!(!is_spec("XIC(a)OTE(b);"));
+    }
+
+    #[test]
+    fn a_scenario_has_steps() {
+        assert!(is_scenario("\u{feff}on s => on v1\r\n"));
+        assert!(is_scenario("// A tank\nscenario \"Filling\"\n"));
+        assert!(!is_scenario("rung: 1 -> PID(a, q => b)\non s => on v1\n"));
+        assert!(!is_scenario("<on s => on v1>"));
     }
 
     #[test]

@@ -9,11 +9,15 @@
 //!   decision diagram over the atoms it depends on, and no others. Two
 //!   expressions that mean the same give equal functions.
 //!
+//! Where something is run instead of reasoned about, a variable's value is a
+//! [`Datum`].
+//!
 //! Every operation on functions takes a [`Budget`]: past it the answer is
 //! [`Stop::TooLarge`], never a long wait. The crate knows no ladder.
 
 mod atoms;
 mod budget;
+mod datum;
 mod expr;
 mod function;
 pub mod notation;
@@ -21,6 +25,7 @@ mod products;
 
 pub use atoms::{AtomId, Atoms};
 pub use budget::{Budget, Cancel, Stop};
+pub use datum::{Datum, duration};
 pub use expr::{Atom, Comparison, Expr, Name, Relation};
 pub use function::{Function, Literal};
 pub use products::Product;

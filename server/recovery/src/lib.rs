@@ -7,6 +7,8 @@
 //! [`conditions`] says of every coil what starts, keeps and ends it;
 //! [`states`] which coils hold the states of the process, [`registers`] which
 //! numbers count its steps; [`successions`] which state may follow which.
+//!
+//! [`simulation`] runs a ladder, a grafcet, or both side by side on a scenario.
 
 mod analysis;
 pub mod conditions;
@@ -14,6 +16,7 @@ pub mod conversion;
 pub mod findings;
 pub mod groups;
 pub mod registers;
+pub mod simulation;
 pub mod states;
 pub mod successions;
 

@@ -3,7 +3,7 @@ use crate::Severity;
 /// The identity of a kind of finding: `G` and four digits, stable for ever.
 ///
 /// The first digit says what is read: 1 a ladder's text, 2 a ladder's meaning,
-/// 3 a spec, 4 files.
+/// 3 a spec, 4 files, 5 a scenario.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Code(u16);
 
@@ -130,6 +130,10 @@ pub mod codes {
         DECISION_UNKNOWN = 3103, Warning, "decision about an unknown state";
         DECISION_SYNTAX = 3104, Warning, "decision not understood";
         FILE_UNREADABLE = 4001, Error, "file cannot be read";
+        SCENARIO_SYNTAX = 5001, Error, "scenario not understood";
+        SCENARIO_NAME_UNKNOWN = 5002, Error, "name that nothing in the run knows";
+        EXPECTATION_FAILED = 5003, Error, "expectation not met";
+        SCENARIO_NOT_RUN = 5004, Error, "scenario cannot be run to its end";
     }
 }
 

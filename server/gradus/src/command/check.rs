@@ -1,4 +1,4 @@
-//! `gradus check`: what is wrong or odd in ladders and specs.
+//! `gradus check`: what is wrong or odd in ladders, specs and scenarios.
 
 use std::collections::BTreeMap;
 use std::io::Write;
@@ -18,19 +18,25 @@ use crate::program;
 use crate::progress::Progress;
 use crate::report::{self, Findings};
 use crate::status::Status;
+use crate::subject;
 use ide::language;
 
-mod against;
+pub mod against;
 
 use against::{about_spec, ladder_beside};
 
 const DETAILS: &str = "\
 A folder stands for the files below it that end in .ladder, .l5x, .l5k, .xml,
-.txt or .grafcet; those of the endings .xml and .txt that hold no ladder are passed over.
+.txt, .grafcet or .scenario; those of the endings .xml and .txt that hold no
+ladder are passed over.
 
 A spec is checked against the ladder beside it, a file of the same name with one
 of the endings above, or against the one that --against names: rules that depart
 from what the ladder gives, states and decisions that it does not know.
+
+A scenario is run on the ladder and the spec that its `for` line names, or on
+those beside it; what it expects and does not get is an error. Where there is
+neither, only its text is checked.
 
 Exit status: 1 if there is a finding of severity error, 2 if a file cannot be read;
 the other files are checked all the same.
@@ -53,7 +59,7 @@ Examples:
   gradus check --format sarif . > gradus.sarif for a code-review tool
   gradus check - < pasted.txt                  what somebody pasted";
 
-/// Report what is wrong or odd in ladders and specs.
+/// Report what is wrong or odd in ladders, specs and scenarios.
 #[derive(Debug, clap::Args)]
 #[command(after_long_help = DETAILS)]
 pub struct Args {
@@ -70,8 +76,8 @@ pub struct Args {
     #[arg(long, conflicts_with = "severity")]
     hints: bool,
 
-    /// The ladder that specs are checked against, instead of the one beside
-    /// them.
+    /// The ladder that specs are checked against and scenarios run on, instead
+    /// of the one beside them.
     #[arg(long, value_name = "LADDER")]
     against: Option<PathBuf>,
 
@@ -155,7 +161,7 @@ pub fn run(args: &Args, io: &mut Io) -> std::io::Result<Status> {
     let analysis = ladder
         .as_ref()
         .map(|ladder| recovery::analyse(&ladder.program, &budget));
-    let inputs = input::expand(&args.files, input::ENDINGS);
+    let inputs = input::expand(&args.files, input::CHECKED);
     let Some(checked) = check(inputs, args.least(), analysis.as_ref(), &budget, io) else {
         return Ok(Status::Interrupted);
     };
@@ -246,7 +252,8 @@ fn is_of_no_interest(candidate: &Candidate, found: &[Diagnostic]) -> bool {
 }
 
 /// What there is to say about the file at `path` that holds `text`; if it is a
-/// spec, in the light of the ladder `against`, or else of the one beside it.
+/// spec or a scenario, in the light of the ladder `against`, or else of what
+/// lies beside it.
 fn examine(
     path: &Path,
     text: &[u8],
@@ -255,6 +262,10 @@ fn examine(
 ) -> Vec<Diagnostic> {
     match (language::of(text), against) {
         (language::File::Ladder(bytes), _) => about_ladder(bytes, budget),
+        (language::File::Scenario(text), against) => {
+            let ladder = against.map(|analysis| &analysis.program);
+            subject::about_scenario(path, text, ladder, &budget.cancel)
+        }
         (language::File::Spec(text), Some(analysis)) => about_spec(text, Some(analysis), budget),
         (language::File::Spec(text), None) => {
             let beside = ladder_beside(path);

@@ -19,10 +19,10 @@ use crate::status::Status;
 use ide::language;
 
 const DETAILS: &str = "\
-A folder stands for the .ladder and .grafcet files below it. A file that would
-not change is not written; one that changes is replaced in one step and keeps
-its permissions. Statements that break the grammar are left as they are, and the
-rest is laid out.
+A folder stands for the .ladder, .grafcet and .scenario files below it. A file
+that would not change is not written; one that changes is replaced in one step
+and keeps its permissions. Statements that break the grammar are left as they
+are, and the rest is laid out.
 
 Exit status: 1 if a statement was left, or with --check if a file would change;
 2 if a file cannot be read or written, or has no canonical layout.
@@ -34,11 +34,11 @@ JSON:
   standard input is not printed: its state is unchanged or would_change.
 
 Examples:
-  gradus fmt plant/             lay out every .ladder and .grafcet text in place
+  gradus fmt plant/             lay out every text below it in place
   gradus fmt --check .          show what would change
   gradus fmt - < tank.ladder    lay out standard input to standard output";
 
-/// Lay out .ladder and .grafcet texts canonically.
+/// Lay out .ladder, .grafcet and .scenario texts canonically.
 #[derive(Debug, clap::Args)]
 #[command(after_long_help = DETAILS)]
 pub struct Args {
@@ -73,6 +73,10 @@ fn lay_out(bytes: &[u8]) -> Option<LaidOut> {
                 left: formatted.diagnostics.iter().filter(is_left).count(),
                 text: formatted.text,
             })
+        }
+        language::File::Scenario(text) => {
+            let scenario::Formatted { text, left } = scenario::format(text);
+            Some(LaidOut { text, left })
         }
         language::File::Ladder(_) if ladder::read(bytes).program.format == Format::Ladder => {
             let formatted = ladder::text::format(std::str::from_utf8(bytes).ok()?);
@@ -109,7 +113,7 @@ impl From<State> for Outcome {
 
 /// Lays out every file.
 pub fn run(args: &Args, io: &mut Io) -> std::io::Result<Status> {
-    let inputs = input::expand(&args.files, &["ladder", "grafcet"]);
+    let inputs = input::expand(&args.files, &["ladder", "grafcet", "scenario"]);
     let mut status = Status::Done;
     let mut answers = Vec::new();
     for (folder, reason) in inputs.unreadable {
@@ -178,7 +182,7 @@ fn tell(args: &Args, path: &Path, outcome: &Outcome, io: &mut Io) -> std::io::Re
         State::Printed(text) => io.answer().write_all(text.as_bytes())?,
         State::NoLayout => {
             status = Status::Usage;
-            let why = "only .ladder and .grafcet texts have a canonical layout";
+            let why = "only .ladder, .grafcet and .scenario texts have a canonical layout";
             io.complain(&format!("{name}: {why}"));
         }
         State::Unreadable(reason) => {

@@ -82,9 +82,8 @@ pub fn run(args: &Args, io: &mut Io) -> std::io::Result<Status> {
         return Ok(status);
     };
     let name = printable(&input::name(path));
-    if holds_a_source(path) {
-        let why = "this is a ladder or a spec, and is left as it is";
-        io.complain(&format!("{name}: {why}"));
+    if let Some(source) = source_at(path) {
+        io.complain(&format!("{name}: this is a {source}, and is left as it is"));
         return Ok(Status::Usage);
     }
     match file::replace(path, text.as_bytes()) {
@@ -132,14 +131,16 @@ fn read(path: &Path, io: &mut Io) -> std::io::Result<Option<(Grafcet, Status)>> 
     Ok(Some((reading.spec.grafcet, status)))
 }
 
-/// Whether the file at `path` holds a ladder or a spec, which nothing brings
-/// back.
-fn holds_a_source(path: &Path) -> bool {
-    let Ok(bytes) = file::read(path) else {
-        return false;
-    };
+/// What the file at `path` holds that nothing brings back, if it holds such a
+/// thing: a ladder, a spec or a scenario.
+pub fn source_at(path: &Path) -> Option<&'static str> {
+    let bytes = file::read(path).ok()?;
     match language::of(&bytes) {
-        language::File::Spec(_) => true,
-        language::File::Ladder(bytes) => ladder::read(bytes).program.format != Format::Unknown,
+        language::File::Spec(_) => Some("spec"),
+        language::File::Scenario(_) => Some("scenario"),
+        language::File::Ladder(bytes) => {
+            let is_known = ladder::read(bytes).program.format != Format::Unknown;
+            is_known.then_some("ladder")
+        }
     }
 }

@@ -4,15 +4,16 @@
 //! manual show, and `run`, which does it. To add one: its file, and its line in
 //! each of the three lists here.
 
-mod check;
+pub mod check;
 mod completions;
 pub mod conditions;
 mod convert;
 mod explain;
 mod fmt;
-mod generate;
+pub mod generate;
 mod lsp;
 mod manual;
+mod simulate;
 mod suggest;
 
 use crate::io::Io;
@@ -25,6 +26,7 @@ pub enum Command {
     Conditions(conditions::Args),
     Suggest(suggest::Args),
     Convert(convert::Args),
+    Simulate(simulate::Args),
     Generate(generate::Args),
     Fmt(fmt::Args),
     Lsp(lsp::Args),
@@ -40,6 +42,7 @@ pub fn run(command: &Command, io: &mut Io) -> std::io::Result<Status> {
         Command::Conditions(args) => conditions::run(args, io),
         Command::Suggest(args) => suggest::run(args, io),
         Command::Convert(args) => convert::run(args, io),
+        Command::Simulate(args) => simulate::run(args, io),
         Command::Generate(args) => generate::run(args, io),
         Command::Fmt(args) => fmt::run(args, io),
         Command::Lsp(args) => lsp::run(args, io),

@@ -1,12 +1,11 @@
 //! From a drawn symbol to an element: its kind, its operands, its ports.
 
-use logic::{Name, Relation};
+use logic::{Name, Relation, duration};
 use source::{Diagnostic, Span, codes};
 
 use super::boxes::DrawnBox;
 use super::grid::Grid;
 use super::symbols::{Drawing, Symbol, SymbolKind};
-use crate::scan::duration;
 use crate::{
     Block, Coil, CoilKind, Comparison, Contact, ContactKind, Counter, CounterKind, Edge,
     ElementKind, Familiarity, Gate, OneShot, Operand, Pin, PinDirection, Port, Timer, TimerKind,

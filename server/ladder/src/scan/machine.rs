@@ -122,6 +122,18 @@ impl<'p> Machine<'p> {
         self.state.read(name)
     }
 
+    /// The value of a variable, a constant or a term such as `a + 2`, if it can
+    /// be computed.
+    pub fn compute(&self, text: &str) -> Option<Datum> {
+        self.state.compute(text)
+    }
+
+    /// Whether all variables and the memories of all edges are as in `other`,
+    /// an earlier moment of the same machine.
+    pub fn is_as_in(&self, other: &Self) -> bool {
+        self.memories == other.memories && self.state.is_same(&other.state)
+    }
+
     /// Whether a variable is on.
     pub fn is_on(&self, name: &str) -> bool {
         self.value(name).is_on()

@@ -16,7 +16,6 @@
 
 mod atom;
 mod counter;
-mod datum;
 mod machine;
 mod power;
 mod solve;
@@ -26,7 +25,6 @@ mod timer;
 mod unknown;
 
 pub use atom::{memory_atom, own_atom, pin_atom, wire_memory_atom};
-pub use datum::Datum;
-pub(crate) use datum::duration;
+pub use logic::Datum;
 pub use machine::Machine;
 pub use power::{Power, power};

@@ -9,10 +9,8 @@
 use std::borrow::Cow;
 use std::collections::HashMap;
 
-use logic::Name;
+use logic::{Datum, Name};
 
-use super::Datum;
-use super::datum::constant;
 use super::term::evaluate;
 use crate::{Declarations, Operand, Program};
 
@@ -51,7 +49,7 @@ impl State {
             }
         }
         for declaration in declarations.iter() {
-            if let Some(value) = declaration.initial.as_deref().and_then(constant) {
+            if let Some(value) = declaration.initial.as_deref().and_then(Datum::constant) {
                 self.write(&declaration.name, value);
             }
         }
@@ -70,12 +68,22 @@ impl State {
         self.values.contains_key(&*name)
     }
 
+    /// Whether every variable has the same value.
+    pub(super) fn is_same(&self, other: &Self) -> bool {
+        let mut values = self.values.iter();
+        self.values.len() == other.values.len()
+            && values.all(|(name, value)| {
+                let other = other.values.get(name);
+                other.is_some_and(|other| other.key() == value.key())
+            })
+    }
+
     /// The value of a variable or constant; 0 before it is first written.
     pub(super) fn read(&self, name: &str) -> Datum {
         if let Some(value) = self.values.get(name) {
             return *value;
         }
-        if let Some(value) = constant(name) {
+        if let Some(value) = Datum::constant(name) {
             return value;
         }
         let name = self.resolved(name);

@@ -14,8 +14,7 @@
 //! controllers differ there, and most raise a fault. What does not fit gives
 //! no value; the machine then treats the whole term as an input.
 
-use super::Datum;
-use super::datum::constant;
+use logic::Datum;
 
 /// Terms nest at most this deep.
 const DEEPEST: usize = 100;
@@ -128,7 +127,7 @@ impl Parser<'_> {
         let length = atom_length(rest);
         let atom = rest.get(..length).filter(|atom| !atom.is_empty())?;
         self.at += length;
-        if let Some(value) = constant(atom) {
+        if let Some(value) = Datum::constant(atom) {
             return Some(value);
         }
         if atom.starts_with(|c: char| c.is_ascii_digit()) {

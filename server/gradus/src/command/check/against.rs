@@ -32,19 +32,19 @@ pub fn about_spec(text: &str, ladder: Option<&Analysis>, budget: &Budget) -> Vec
 /// The ladder beside the spec at `path`: of the files that differ from it only
 /// by an ending under which ladders are kept, the first that holds one.
 pub fn ladder_beside(path: &Path) -> Option<Arc<Program>> {
-    candidates(path).into_iter().find_map(|path| {
+    beside(path).into_iter().find_map(|path| {
         let bytes = file::read(&path).ok()?;
-        if let language::File::Spec(_) = language::of(&bytes) {
+        let language::File::Ladder(_) = language::of(&bytes) else {
             return None;
-        }
+        };
         let program = ladder::read(&bytes).program;
         (program.format != Format::Unknown).then_some(program)
     })
 }
 
-/// Files beside the spec at `path` that may hold its ladder, in the order of
-/// their endings.
-fn candidates(path: &Path) -> Vec<PathBuf> {
+/// Files that differ from `path` only by an ending, in the order of
+/// [`input::ENDINGS`].
+pub fn beside(path: &Path) -> Vec<PathBuf> {
     if is_standard_input(path) {
         return Vec::new();
     }

@@ -1,11 +1,10 @@
-//! Values of variables.
-
 use std::cmp::Ordering;
 use std::fmt::{self, Display, Formatter};
 
-use logic::Relation;
+use crate::Relation;
 
-/// A value.
+/// The value of a variable, in whatever is run: a ladder, a grafcet, a
+/// scenario.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Datum {
     /// Off or on.
@@ -23,6 +22,34 @@ impl Default for Datum {
 }
 
 impl Datum {
+    /// Reads a constant: `5`, `-2.5`, `1e3`, `16#F0`, `TRUE`, `T#1m30s`, `500ms`.
+    /// Times are milliseconds.
+    pub fn constant(text: &str) -> Option<Self> {
+        let text = text.trim();
+        let first = text.chars().next()?;
+        if text.eq_ignore_ascii_case("true") {
+            return Some(Self::Bool(true));
+        }
+        if text.eq_ignore_ascii_case("false") {
+            return Some(Self::Bool(false));
+        }
+        if let Some(time) = duration(text) {
+            return Some(Self::Integer(time));
+        }
+        if !(first.is_ascii_digit() || matches!(first, '-' | '+' | '.')) {
+            return None;
+        }
+        let plain: String = text.chars().filter(|&c| c != '_').collect();
+        if let Some((base, digits)) = plain.split_once('#') {
+            let base = base.parse().ok().filter(|base| (2..=36).contains(base))?;
+            return i64::from_str_radix(digits, base).ok().map(Self::Integer);
+        }
+        if let Ok(number) = plain.parse() {
+            return Some(Self::Integer(number));
+        }
+        plain.parse().ok().map(Self::Real)
+    }
+
     /// Whether a contact with this value is on: anything but 0 is.
     pub fn is_on(self) -> bool {
         match self {
@@ -49,6 +76,16 @@ impl Datum {
         }
     }
 
+    /// The value as two numbers, equal where nothing tells the values apart. A
+    /// number that is none (NaN) is itself here; on and 1 differ.
+    pub fn key(self) -> [u64; 2] {
+        match self {
+            Self::Bool(on) => [0, u64::from(on)],
+            Self::Integer(number) => [1, number.cast_unsigned()],
+            Self::Real(number) => [2, number.to_bits()],
+        }
+    }
+
     /// Whether the relation holds between two values. Nothing holds with a
     /// number that is none (NaN) but `<>`.
     pub fn compares(self, relation: Relation, other: Self) -> bool {
@@ -60,7 +97,8 @@ impl Datum {
 
     /// The result of `whole` for two values without a fraction, else of
     /// `fraction`.
-    pub(super) fn combine(
+    #[must_use]
+    pub fn combine(
         self,
         other: Self,
         whole: impl Fn(i64, i64) -> i64,
@@ -74,14 +112,18 @@ impl Datum {
         }
     }
 
-    pub(super) fn smaller(self, other: Self) -> Self {
+    /// The smaller of two values; this one where neither is.
+    #[must_use]
+    pub fn smaller(self, other: Self) -> Self {
         match self.real().partial_cmp(&other.real()) {
             Some(Ordering::Greater) => other,
             _ => self,
         }
     }
 
-    pub(super) fn larger(self, other: Self) -> Self {
+    /// The larger of two values; this one where neither is.
+    #[must_use]
+    pub fn larger(self, other: Self) -> Self {
         match self.real().partial_cmp(&other.real()) {
             Some(Ordering::Less) => other,
             _ => self,
@@ -89,36 +131,8 @@ impl Datum {
     }
 }
 
-/// Reads a constant: `5`, `-2.5`, `1e3`, `16#F0`, `TRUE`, `T#1m30s`, `500ms`.
-/// Times are milliseconds.
-pub(super) fn constant(text: &str) -> Option<Datum> {
-    let text = text.trim();
-    let first = text.chars().next()?;
-    if text.eq_ignore_ascii_case("true") {
-        return Some(Datum::Bool(true));
-    }
-    if text.eq_ignore_ascii_case("false") {
-        return Some(Datum::Bool(false));
-    }
-    if let Some(time) = duration(text) {
-        return Some(Datum::Integer(time));
-    }
-    if !(first.is_ascii_digit() || matches!(first, '-' | '+' | '.')) {
-        return None;
-    }
-    let plain: String = text.chars().filter(|&c| c != '_').collect();
-    if let Some((base, digits)) = plain.split_once('#') {
-        let base = base.parse().ok().filter(|base| (2..=36).contains(base))?;
-        return i64::from_str_radix(digits, base).ok().map(Datum::Integer);
-    }
-    if let Ok(number) = plain.parse() {
-        return Some(Datum::Integer(number));
-    }
-    plain.parse().ok().map(Datum::Real)
-}
-
 /// Reads a duration in milliseconds: `T#5s`, `TIME#1h2m`, `500ms`, `2.5s`.
-pub(crate) fn duration(text: &str) -> Option<i64> {
+pub fn duration(text: &str) -> Option<i64> {
     let text = text.trim();
     let after = |prefix: &str| {
         let head = text.get(..prefix.len())?;
@@ -205,10 +219,10 @@ mod tests {
             ("1e3", Datum::Real(1000.0)),
         ];
         for (text, value) in cases {
-            assert_eq!(constant(text), Some(value), "{text}");
+            assert_eq!(Datum::constant(text), Some(value), "{text}");
         }
         for text in ["", "v1", "5 apples", "16#", "T#", "s", "'a'"] {
-            assert_eq!(constant(text), None, "{text}");
+            assert_eq!(Datum::constant(text), None, "{text}");
         }
     }
 }

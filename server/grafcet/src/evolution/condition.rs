@@ -1,0 +1,99 @@
+//! Expressions with numbers in place of names.
+
+use logic::{Datum, Relation};
+
+use super::term::Operand;
+
+/// An expression of the grafcet, ready to be evaluated.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Condition {
+    Constant(bool),
+    Variable(usize),
+    Step(usize),
+    Comparison {
+        left: Operand,
+        relation: Relation,
+        right: Operand,
+    },
+    /// An edge, by its place among the grafcet's edges.
+    Edge(usize),
+    /// A step has been active for so many milliseconds.
+    Elapsed {
+        time: u64,
+        step: usize,
+    },
+    Not(Box<Condition>),
+    All(Vec<Condition>),
+    Any(Vec<Condition>),
+}
+
+/// An edge in some expression: what it looks at, and which way.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Edge {
+    pub(super) of: Condition,
+    pub(super) is_falling: bool,
+}
+
+/// What an expression sees.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct View<'m> {
+    pub(super) active: &'m [bool],
+    pub(super) since: &'m [u64],
+    pub(super) values: &'m [Datum],
+    /// Which edges occur; those that are not in it do not.
+    pub(super) edges: &'m [bool],
+    pub(super) now: u64,
+}
+
+impl View<'_> {
+    pub(super) fn is_active(&self, step: usize) -> bool {
+        self.active.get(step).copied().unwrap_or(false)
+    }
+
+    pub(super) fn value(&self, variable: usize) -> Datum {
+        self.values.get(variable).copied().unwrap_or_default()
+    }
+}
+
+impl Condition {
+    pub(super) fn holds(&self, view: &View<'_>) -> bool {
+        match self {
+            Self::Constant(value) => *value,
+            Self::Variable(at) => view.value(*at).is_on(),
+            Self::Step(at) => view.is_active(*at),
+            Self::Comparison {
+                left,
+                relation,
+                right,
+            } => left.value(view).compares(*relation, right.value(view)),
+            Self::Edge(at) => view.edges.get(*at).copied().unwrap_or(false),
+            Self::Elapsed { time, step } => {
+                let since = view.since.get(*step).copied().unwrap_or(view.now);
+                view.is_active(*step) && view.now.saturating_sub(since) >= *time
+            }
+            Self::Not(inner) => !inner.holds(view),
+            Self::All(parts) => parts.iter().all(|part| part.holds(view)),
+            Self::Any(parts) => parts.iter().any(|part| part.holds(view)),
+        }
+    }
+
+    /// Calls `visit` with every variable whose value is read now; those that
+    /// only an edge looks at were read at the start of the scan.
+    pub(super) fn each_variable(&self, visit: &mut impl FnMut(usize)) {
+        match self {
+            Self::Variable(at) => visit(*at),
+            Self::Comparison { left, right, .. } => {
+                for side in [left, right] {
+                    if let Operand::Variable(at) = side {
+                        visit(*at);
+                    }
+                }
+            }
+            Self::Not(inner) => inner.each_variable(visit),
+            Self::All(parts) | Self::Any(parts) => {
+                parts.iter().for_each(|part| part.each_variable(visit));
+            }
+            Self::Constant(_) | Self::Step(_) | Self::Edge(_) | Self::Elapsed { .. } => {}
+        }
+    }
+}

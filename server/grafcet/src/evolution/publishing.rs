@@ -1,0 +1,72 @@
+//! Continuous actions: outputs that are on while a step is active.
+//!
+//! They are worked out once a scan, when the situation is stable. The
+//! condition of one may read the output of another, and no order of lines may
+//! decide what it sees: what others depend on is worked out first. Outputs
+//! that depend on each other in a circle see each other as they were last
+//! published.
+
+use petgraph::algo::tarjan_scc;
+use petgraph::graph::{DiGraph, NodeIndex};
+
+use super::condition::Condition;
+use super::net::{Continuous, Net, State};
+
+/// Adds a continuous action.
+pub(super) fn add(net: &mut Net, variable: usize, step: usize, condition: Condition) {
+    let mut all = net.continuous.iter_mut().flatten();
+    match all.find(|output| output.variable == variable) {
+        Some(output) => output.acts.push((step, condition)),
+        None => net.continuous.push(vec![Continuous {
+            variable,
+            acts: vec![(step, condition)],
+        }]),
+    }
+}
+
+/// Brings the outputs into the order in which they are worked out.
+pub(super) fn arrange(net: &mut Net) {
+    let outputs: Vec<Continuous> = net.continuous.drain(..).flatten().collect();
+    net.is_continuous = vec![false; net.variables.len()];
+    let mut places = vec![None; net.variables.len()];
+    let mut graph: DiGraph<usize, ()> = DiGraph::new();
+    for (at, output) in outputs.iter().enumerate() {
+        net.is_continuous[output.variable] = true;
+        places[output.variable] = Some(graph.add_node(at));
+    }
+    for (at, output) in outputs.iter().enumerate() {
+        for (_, condition) in &output.acts {
+            condition.each_variable(&mut |variable| {
+                if let Some(Some(place)) = places.get(variable) {
+                    graph.add_edge(NodeIndex::new(at), *place, ());
+                }
+            });
+        }
+    }
+    let mut outputs: Vec<Option<Continuous>> = outputs.into_iter().map(Some).collect();
+    // What is pointed at comes first: what others depend on.
+    net.continuous = tarjan_scc(&graph)
+        .into_iter()
+        .map(|circle| {
+            let members = circle.into_iter().map(|node| graph[node]);
+            members.filter_map(|at| outputs[at].take()).collect()
+        })
+        .collect();
+}
+
+/// Publishes every output that has continuous actions. `edges` are those that
+/// occurred in this scan.
+pub(super) fn publish(net: &Net, state: &mut State, edges: &[bool], now: u64) {
+    for circle in &net.continuous {
+        let view = state.view(edges, now);
+        let acts = |output: &Continuous| {
+            let mut acts = output.acts.iter();
+            acts.any(|(step, condition)| view.is_active(*step) && condition.holds(&view))
+        };
+        let values: Vec<bool> = circle.iter().map(acts).collect();
+        for (output, acts) in circle.iter().zip(values) {
+            let at = output.variable;
+            state.values[at] = (acts || state.kept[at]).into();
+        }
+    }
+}

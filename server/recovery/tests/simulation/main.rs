@@ -1,0 +1,5 @@
+//! Scenarios run on ladders and specs.
+
+mod agreement;
+mod running;
+mod tables;
