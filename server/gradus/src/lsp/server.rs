@@ -23,7 +23,7 @@ use super::requests::command::Command;
 use super::teller::Tellers;
 use super::transport::Output;
 use super::world::State;
-use super::{parent, publish, requests, telling};
+use super::{folders, parent, publish, requests, telling};
 
 /// How the server ended.
 #[derive(Clone, Debug, Default)]
@@ -144,11 +144,11 @@ impl LanguageServer for Server {
         if let Some(id) = params.process_id {
             parent::watch(id);
         }
-        let folders = params.workspace_folders.unwrap_or_default();
+        let folders = folders::at_first(&params);
         let capabilities = capabilities(&abilities);
         self.shared.state.change(|world| {
             world.abilities = Arc::new(abilities);
-            world.folders = folders.iter().map(|it| FileKey::of(&it.uri)).collect();
+            world.folders = folders;
         });
         if let Some(settings) = params.initialization_options {
             self.configure(&settings);
@@ -235,17 +235,9 @@ impl LanguageServer for Server {
     }
 
     async fn did_change_workspace_folders(&self, params: DidChangeWorkspaceFoldersParams) {
-        let removed: Vec<_> = params
-            .event
-            .removed
-            .iter()
-            .map(|it| FileKey::of(&it.uri))
-            .collect();
-        let added = params.event.added.iter().map(|it| FileKey::of(&it.uri));
-        self.shared.state.change(|world| {
-            world.folders.retain(|it| !removed.contains(it));
-            world.folders.extend(added);
-        });
+        self.shared
+            .state
+            .change(|world| folders::changed(&mut world.folders, &params.event));
     }
 
     async fn did_change_watched_files(&self, params: DidChangeWatchedFilesParams) {
