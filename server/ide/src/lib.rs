@@ -50,7 +50,7 @@ mod statement;
 pub mod symbols;
 pub mod tokens;
 
-pub use actions::{Action, ActionKind, Effect, actions_in_ladder, actions_in_spec};
+pub use actions::{Action, ActionKind, Asked, Effect, actions_in_ladder, actions_in_spec};
 pub use change::{Change, Departing, changed_spec};
 pub use changed::{changed, edited};
 pub use coil::{Coil, Drawn, Part, Said, coil, coils, kind_word};
