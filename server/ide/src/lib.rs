@@ -57,7 +57,7 @@ pub use coil::{Coil, Drawn, Part, Said, coil, coils, kind_word};
 pub use completion::{
     Completion, CompletionKind, Completions, complete_in_ladder, complete_in_spec,
 };
-pub use condition::{legible, said};
+pub use condition::{broken, legible, said};
 pub use decided::{Decided, Standing};
 pub use folding::{Fold, folds_in_ladder, folds_in_spec};
 pub use hints::{Hint, hints_in_ladder, hints_in_spec};
