@@ -143,18 +143,7 @@ fn accepting_changes_only_what_follows_and_can_be_taken_back() {
     let actions = offered(&mut client, "tank.grafcet", "//! accept h");
     let back = text_edits(&taken(&mut client, &actions, "Take back: h -> v3")).1;
     let back = edited(&after, &back);
-    assert!(back.contains("Input  s"), "{back}");
-    assert_eq!(rules(&back), rules(&spec));
-}
-
-/// The rules and decisions of a spec, in whatever order they stand.
-fn rules(spec: &str) -> Vec<&str> {
-    let mut rules: Vec<&str> = spec
-        .lines()
-        .filter(|line| line.contains("|-") || line.starts_with("//!"))
-        .collect();
-    rules.sort_unstable();
-    rules
+    assert_eq!(back, spec);
 }
 
 #[test]

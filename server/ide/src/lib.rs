@@ -37,6 +37,7 @@ pub mod language;
 mod layout;
 mod lenses;
 mod link;
+mod merged;
 mod names;
 pub mod navigate;
 mod next;
@@ -66,6 +67,7 @@ pub use ladder::Ladder;
 pub use layout::{Extent, lay_out_ladder, lay_out_spec};
 pub use lenses::{Count, Lens, count, lenses_in_ladder, lenses_in_spec};
 pub use link::{link_in_ladder, link_in_spec};
+pub use merged::merged_spec;
 pub use names::{Mention, Names, Usage, element};
 pub use next::{Next, NextKind, next, next_at};
 pub use rename::{
