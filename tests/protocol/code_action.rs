@@ -1,4 +1,5 @@
 use end_to_end::lsp::{Client, Profile, selected};
+use serde_json::json;
 use tower_lsp::ls_types::request::{CodeActionRequest, CodeActionResolveRequest};
 use tower_lsp::ls_types::{
     CodeAction, CodeActionContext, CodeActionOrCommand, CodeActionParams, DocumentChangeOperation,
@@ -142,18 +143,7 @@ fn accepting_changes_only_what_follows_and_can_be_taken_back() {
     let actions = offered(&mut client, "tank.grafcet", "//! accept h");
     let back = text_edits(&taken(&mut client, &actions, "Take back: h -> v3")).1;
     let back = edited(&after, &back);
-    assert!(back.contains("Input  s"), "{back}");
-    assert_eq!(rules(&back), rules(&spec));
-}
-
-/// The rules and decisions of a spec, in whatever order they stand.
-fn rules(spec: &str) -> Vec<&str> {
-    let mut rules: Vec<&str> = spec
-        .lines()
-        .filter(|line| line.contains("|-") || line.starts_with("//!"))
-        .collect();
-    rules.sort_unstable();
-    rules
+    assert_eq!(back, spec);
 }
 
 #[test]
@@ -196,6 +186,79 @@ fn in_xml_the_same_is_offered() {
         let actions = offered(&mut client, &name, at);
         taken(&mut client, &actions, TOGETHER);
     }
+}
+
+/// `kind: title` of what is offered, cut behind the first words.
+fn kinds(actions: &[CodeAction]) -> Vec<String> {
+    let shown = actions.iter().map(|it| {
+        let kind = it.kind.as_ref().expect("a kind").as_str();
+        let words: Vec<&str> = it.title.split(' ').take(4).collect();
+        format!("{kind}: {}", words.join(" "))
+    });
+    shown.collect()
+}
+
+/// Two coils drive the same output.
+const DOUBLE: &str = "rung: (a + y) * /b -> y\nrung: c -> y // again\n";
+
+#[test]
+fn the_light_bulb_of_a_rung_has_the_page_of_its_finding_and_the_way_to_a_spec() {
+    let mut client = client_like(Profile::VsCode);
+    client.open_plain("tank.ladder", DOUBLE);
+    let actions = offered(&mut client, "tank.ladder", "y // again");
+    assert_eq!(
+        kinds(&actions),
+        ["quickfix.gradus.explain: Explain G2002: coil driven"]
+    );
+    assert_eq!(actions[0].is_preferred, None);
+    client.open_fixture(LADDER, "case.ladder");
+    let actions = offered(&mut client, "case.ladder", "v1) * /ls2");
+    assert_eq!(
+        kinds(&actions).last().map(String::as_str),
+        Some("refactor.gradus.convert: Create the spec beside")
+    );
+    let spec = text_edits(&taken(&mut client, &actions, "Create the spec")).1;
+    assert!(edited("", &spec).contains("Step "), "{spec:?}");
+}
+
+#[test]
+fn pages_are_offered_to_clients_that_show_them_and_of_findings_that_are_shown() {
+    let explains = |client: &mut Client| {
+        client.open_plain("tank.ladder", DOUBLE);
+        let actions = offered(client, "tank.ladder", "y // again");
+        actions.iter().any(|it| it.title.starts_with("Explain"))
+    };
+    assert!(explains(&mut client_like(Profile::VsCode)));
+    for profile in [Profile::Helix, Profile::Eglot, Profile::Plain] {
+        assert!(!explains(&mut client_like(profile)), "{profile:?}");
+    }
+    let settings = json!({ "diagnostics": { "ignore": ["G2002"] } });
+    let executable = env!("CARGO_BIN_EXE_gradus");
+    let mut client = Client::start_with(executable, Profile::VsCode, settings);
+    assert!(!explains(&mut client));
+}
+
+#[test]
+fn what_mends_a_rule_comes_before_what_explains_it() {
+    let mut client = client_like(Profile::VsCode);
+    client.open_fixture(LADDER, "tank.ladder");
+    let actions = offered(&mut client, "tank.ladder", "v1) * /ls2");
+    let spec = edited(
+        "",
+        &text_edits(&taken(&mut client, &actions, "Create the spec")).1,
+    );
+    client.open("tank.grafcet", &spec.replacen("/ls2 |-", "/ls3 |-", 1));
+    let actions = offered(&mut client, "tank.grafcet", "/ls3 |-");
+    let first: Vec<String> = kinds(&actions).into_iter().take(4).collect();
+    assert_eq!(
+        first,
+        [
+            "quickfix: Take over what the",
+            "quickfix: Keep v1_starts as it",
+            "quickfix: Take over all that",
+            "quickfix.gradus.explain: Explain G3101: rule that",
+        ]
+    );
 }
 
 #[test]

@@ -43,14 +43,13 @@ fn on_a_contact_the_conditions_of_its_coil_are_shown() {
 Fill: holds a state (seal-in)
 
 ```text
-turns on   s*/ls2
-stays on   /ls2
-turns off  ls2
-```
+turns on     s*/ls2
+stays on     /ls2
+turns off    ls2
 
-follows v2 (possible) · followed by v2 (handover on s\\*ls2)
+follows      v2 (possible)
+followed by  v2 (handover on s*ls2)
 
-```text
 ┬──[ s ]───┬──[/ls2]────( v1 )
 └──[ v1 ]──┘
 ```";
@@ -63,7 +62,7 @@ fn a_client_without_markdown_is_shown_plain_text() {
     let (kind, text) = shown(Profile::Eglot, "(s + v", "1) *").expect("a hover");
     assert_eq!(kind, MarkupKind::PlainText);
     assert!(
-        text.starts_with("v1  %Q0\nFill: holds a state (seal-in)\n\nturns on   s*/ls2\n"),
+        text.starts_with("v1  %Q0\nFill: holds a state (seal-in)\n\nturns on     s*/ls2\n"),
         "{text}"
     );
 }
@@ -74,6 +73,38 @@ fn on_an_input_its_readers_are_shown() {
     assert_eq!(
         text,
         "**ls2**  \nLevel: input\n\nRead by rung 0 of Tank (Fill the tank), rung 1 of Tank"
+    );
+}
+
+#[test]
+fn what_is_long_goes_on_in_the_next_line() {
+    let mut client = client();
+    let names: Vec<String> = (0..9).map(|at| format!("conveyor_{at}_empty")).collect();
+    let text = format!("rung: {} -> $0ready\n", names.join(" * "));
+    let marked = client.open("wide.ladder", &text);
+    let params = HoverParams {
+        text_document_position_params: client.at("wide.ladder", marked.position(0, false)),
+        work_done_progress_params: Default::default(),
+    };
+    let hover = client.request::<HoverRequest>(params).expect("a hover");
+    let HoverContents::Markup(markup) = hover.contents else {
+        panic!("no markup");
+    };
+    assert_eq!(
+        markup.value,
+        "**ready**  
+follows its condition, holds nothing
+
+```text
+on while  conveyor_0_empty*conveyor_1_empty*conveyor_2_empty*
+            conveyor_3_empty*conveyor_4_empty*conveyor_5_empty*
+            conveyor_6_empty*conveyor_7_empty*conveyor_8_empty
+
+──[ conveyor_0_empty ]────[ conveyor_1_empty ]────[ conveyor_2_empty ]───→
+→───[ conveyor_3_empty ]────[ conveyor_4_empty ]────[ conveyor_5_empty ]───→
+→───[ conveyor_6_empty ]────[ conveyor_7_empty ]────[ conveyor_8_empty ]───→
+→───( ready )
+```"
     );
 }
 

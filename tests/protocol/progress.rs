@@ -1,7 +1,10 @@
 //! Progress of work that takes long.
 
+use std::path::Path;
+
 use end_to_end::lsp::Profile;
 use serde_json::{Value, json};
+use tower_lsp::ls_types::Uri;
 
 use crate::raw::{Raw, large};
 
@@ -108,6 +111,82 @@ fn long_work_ends_when_the_user_cancels_it() {
         raw.still_answers();
         raw.finish();
     }
+}
+
+/// Writes ladders into a folder, the next twice as large as the one before,
+/// until looking for names in it takes so long that the server wants to show
+/// it. Returns the number of the search, the token and the question to answer.
+fn slow_search(raw: &mut Raw, folder: &Path, mut rungs: usize) -> (Value, Value, Value) {
+    loop {
+        let file = folder.join(format!("{rungs}.ladder"));
+        std::fs::write(file, large(rungs)).expect("a file");
+        let id = raw.begin("workspace/symbol", json!({ "query": "c77" }));
+        let next = raw.wait_for(|it| is_create(it) || it["id"] == id);
+        if is_create(&next) {
+            return (id, next["params"]["token"].clone(), next["id"].clone());
+        }
+        assert!(rungs < 2_000_000, "even {rungs} rungs take no time");
+        rungs *= 2;
+    }
+}
+
+/// A client that works on that folder.
+fn in_folder(folder: &Path) -> Raw {
+    let mut raw = Raw::start();
+    let uri = Uri::from_file_path(folder).expect("an address");
+    let capabilities = Profile::VsCode.capabilities();
+    raw.ask(
+        "initialize",
+        json!({ "processId": null, "rootUri": uri, "capabilities": capabilities }),
+    );
+    raw.notify("initialized", json!({}));
+    raw
+}
+
+#[test]
+fn a_long_search_is_shown_from_its_begin_to_its_end() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut raw = in_folder(folder.path());
+    let (search, token, id) = slow_search(&mut raw, folder.path(), LONG);
+    agree(&mut raw, &id);
+    // What ends at once, when the client has agreed late, is not shown.
+    let next = raw.wait_for(|it| it["method"] == "$/progress" || it["id"] == search);
+    let answer = if next["method"] == "$/progress" {
+        let begin = &next["params"]["value"];
+        assert_eq!(begin["kind"], "begin");
+        assert_eq!(begin["title"], "Reading the names in all files");
+        assert_eq!(begin["cancellable"], true);
+        assert_eq!(shown(&mut raw, &token)["kind"], "end");
+        raw.end(&search)
+    } else {
+        next
+    };
+    let first = &answer["result"][0];
+    assert_eq!(first["name"], "c77", "{answer}");
+    raw.finish();
+}
+
+#[test]
+fn a_long_search_ends_when_the_user_cancels_it() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut raw = in_folder(folder.path());
+    let (search, token, id) = slow_search(&mut raw, folder.path(), LONG);
+    agree(&mut raw, &id);
+    let next = raw.wait_for(|it| it["method"] == "$/progress" || it["id"] == search);
+    if next["method"] == "$/progress" {
+        raw.notify("window/workDoneProgress/cancel", json!({ "token": token }));
+        assert_eq!(shown(&mut raw, &token)["kind"], "end");
+        // Nothing, unless all had been read by then.
+        let answer = raw.end(&search);
+        let first = &answer["result"][0]["name"];
+        assert!(answer["result"].is_null() || first == "c77", "{answer}");
+    }
+    let answer = raw.ask("workspace/symbol", json!({ "query": "c77" }));
+    assert_eq!(
+        answer["result"][0]["name"], "c77",
+        "the next search answers"
+    );
+    raw.finish();
 }
 
 #[test]

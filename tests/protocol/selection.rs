@@ -64,6 +64,27 @@ fn in_xml_from_an_operand_to_its_rung_and_routine() {
 }
 
 #[test]
+fn in_plcopen_from_an_operand_over_its_branches_to_the_rung() {
+    let mut client = client();
+    let path = end_to_end::path("fixtures/neutralization/neutralization.xml");
+    let text = std::fs::read_to_string(path).expect("a fixture");
+    let text = text.replacen("<variable>v1</variable>", "<variable>v$01</variable>", 1);
+    let marked = client.open("n.xml", &text);
+    let at = marked.position(0, false);
+    let found = grown(&mut client, "n.xml", &[at]).expect("selections");
+    let texts = texts(&marked.text, &found[0]);
+    // The contacts that each selection holds.
+    let held = texts.iter().map(|text| {
+        let parts = text.split("<variable>").skip(1);
+        let names = parts.filter_map(|it| it.split_once("</variable>"));
+        names.map(|(name, _)| name).collect::<Vec<_>>().join(" ")
+    });
+    let held: Vec<String> = held.take(5).collect();
+    assert_eq!(held[..4], ["", "v1", "s v1", "s v1 ls2"], "{texts:#?}");
+    assert!(held[4].starts_with("s v1 ls2 v1"), "{held:?}");
+}
+
+#[test]
 fn in_a_spec_from_a_name_to_its_section() {
     let mut client = client_like(Profile::Neovim);
     let text = "Step Xö\nTransitions:\nt1: Xö*(a + $0b) |- @Xö\n";

@@ -9,7 +9,9 @@ use tower_lsp::ls_types::{
     Uri, WorkspaceFolder, WorkspaceFoldersChangeEvent, WorkspaceSymbolResponse,
 };
 
+use crate::raw::Raw;
 use crate::{client, client_like};
+use serde_json::json;
 
 const LADDER: &str = "\
 program Tänk\r
@@ -201,9 +203,10 @@ fn whole_folders_are_searched() {
     assert_eq!(named(&mut client, "füll"), ["tank.ladder:3 rung 0: Füllen"]);
     assert_eq!(named(&mut client, "lmp"), ["tank.ladder:4 lamp"]);
     assert_eq!(named(&mut client, "nothing like it"), [""; 0]);
-    let state = &found(&mut client, "v1")[0];
-    assert_eq!(state.kind, SymbolKind::ENUM_MEMBER);
-    assert_eq!(state.container_name.as_deref(), Some("rung 0: Füllen"));
+    // Nothing is analysed for a search, so that nothing tells it from other coils.
+    let coil = &found(&mut client, "v1")[0];
+    assert_eq!(coil.kind, SymbolKind::VARIABLE);
+    assert_eq!(coil.container_name.as_deref(), Some("rung 0: Füllen"));
 }
 
 #[test]
@@ -221,6 +224,48 @@ fn what_is_open_counts_as_it_is_and_what_changed_on_disk_is_read_again() {
     assert_eq!(named(&mut client, "lamp"), ["tank.ladder:1 another_lamp"]);
     std::fs::remove_file(client.path("tank.ladder")).expect("removed");
     assert_eq!(named(&mut client, "lamp"), [""; 0]);
+}
+
+#[test]
+fn a_root_counts_as_the_one_folder() {
+    let [one, two] = ["v1", "v2"].map(|coil| {
+        let folder = tempfile::tempdir().expect("a folder");
+        let text = format!("rung: a -> {coil}");
+        std::fs::write(folder.path().join("tank.ladder"), text).expect("a file");
+        folder
+    });
+    let address = |folder: &tempfile::TempDir| Uri::from_file_path(folder.path());
+    let [one, two] = [&one, &two].map(|it| (it.path(), address(it).expect("an address")));
+    let named = json!([{ "uri": two.1, "name": "two" }]);
+    for (roots, coils) in [
+        (json!({ "rootUri": one.1 }), ["v1"].as_slice()),
+        (json!({ "rootUri": null, "rootPath": one.0 }), &["v1"]),
+        (json!({ "rootUri": two.1, "rootPath": one.0 }), &["v2"]),
+        (
+            json!({ "rootUri": two.1, "workspaceFolders": null }),
+            &["v2"],
+        ),
+        // Folders say more than a root.
+        (
+            json!({ "rootUri": one.1, "workspaceFolders": named }),
+            &["v2"],
+        ),
+        (json!({ "rootUri": one.1, "workspaceFolders": [] }), &[]),
+        (json!({ "rootUri": null, "rootPath": "" }), &[]),
+        (json!({}), &[]),
+    ] {
+        let mut raw = Raw::start();
+        let mut hello = json!({ "processId": null, "capabilities": {} });
+        let own = hello.as_object_mut().expect("an object");
+        own.extend(roots.as_object().expect("an object").clone());
+        raw.ask("initialize", hello);
+        raw.notify("initialized", json!({}));
+        let answer = raw.ask("workspace/symbol", json!({ "query": "v" }));
+        let found = answer["result"].as_array().expect("a list").iter();
+        let found: Vec<&str> = found.filter_map(|it| it["name"].as_str()).collect();
+        assert_eq!(found, coils, "{roots}");
+        raw.finish();
+    }
 }
 
 #[test]

@@ -52,7 +52,7 @@ export function execute<Answer>(client: LanguageClient, command: string, ...args
 /** Tells the server which of its further messages this client understands. */
 export const furtherCapabilities: StaticFeature = {
   fillClientCapabilities(capabilities: ClientCapabilities): void {
-    capabilities.experimental = { gradusStatus: true, gradusVirtualDocuments: true };
+    capabilities.experimental = { gradusStatus: true, gradusVirtualDocuments: true, gradusPages: true };
   },
   initialize(): void {},
   getState(): FeatureState {

@@ -6,7 +6,7 @@ use grafcet::{Decision, Verdict};
 use logic::{Budget, Name};
 use recovery::conversion::update;
 
-use crate::{Ladder, Spec, decide};
+use crate::{Ladder, Spec, decide, merged_spec};
 
 /// One thing that somebody decides.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -93,7 +93,8 @@ pub fn changed_spec(
             departure.renew(&mut new);
         }
     }
-    grafcet::rewrite(spec.map_or("", |it| &it.text), &new)
+    let text = spec.map_or("", |it| &*it.text);
+    merged_spec(&ladder.analysis, text, &existing, &new, budget)
 }
 
 /// `v2`, or `v2, h and m`.

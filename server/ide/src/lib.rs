@@ -37,6 +37,7 @@ pub mod language;
 mod layout;
 mod lenses;
 mod link;
+mod merged;
 mod names;
 pub mod navigate;
 mod next;
@@ -50,14 +51,14 @@ mod statement;
 pub mod symbols;
 pub mod tokens;
 
-pub use actions::{Action, ActionKind, Effect, actions_in_ladder, actions_in_spec};
+pub use actions::{Action, ActionKind, Asked, Effect, actions_in_ladder, actions_in_spec};
 pub use change::{Change, Departing, changed_spec};
 pub use changed::{changed, edited};
 pub use coil::{Coil, Drawn, Part, Said, coil, coils, kind_word};
 pub use completion::{
     Completion, CompletionKind, Completions, complete_in_ladder, complete_in_spec,
 };
-pub use condition::{legible, said};
+pub use condition::{broken, legible, said};
 pub use decided::{Decided, Standing};
 pub use folding::{Fold, folds_in_ladder, folds_in_spec};
 pub use hints::{Hint, hints_in_ladder, hints_in_spec};
@@ -66,6 +67,7 @@ pub use ladder::Ladder;
 pub use layout::{Extent, lay_out_ladder, lay_out_spec};
 pub use lenses::{Count, Lens, count, lenses_in_ladder, lenses_in_spec};
 pub use link::{link_in_ladder, link_in_spec};
+pub use merged::merged_spec;
 pub use names::{Mention, Names, Usage, element};
 pub use next::{Next, NextKind, next, next_at};
 pub use rename::{

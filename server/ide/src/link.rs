@@ -1,13 +1,14 @@
 //! Where a text names the one beside it.
 
-use ::ladder::Role as RoutineRole;
+use ::ladder::{Format, Role as RoutineRole};
 use grafcet::Role;
 use source::Span;
 
 use crate::{Ladder, Spec};
 
 /// The bytes of a ladder that stand for its spec: the program's name, else the
-/// first routine's.
+/// first routine's, else how the text begins: a comment, or a word of the
+/// notation. Never a variable, for a link would stand in the way to its coil.
 pub fn link_in_ladder(ladder: &Ladder) -> Option<Span> {
     let routines = &ladder.program().routines;
     // The bodies of blocks come first in exports; nobody calls the program by
@@ -21,6 +22,29 @@ pub fn link_in_ladder(ladder: &Ladder) -> Option<Span> {
         false => ladder.unit_name(routine),
     };
     name.or_else(|| ladder.routine_name(routine))
+        .or_else(|| beginning(ladder))
+}
+
+fn beginning(ladder: &Ladder) -> Option<Span> {
+    if ladder.program().format != Format::Ladder {
+        return None;
+    }
+    let (start, line) = first_line(&ladder.text)?;
+    let is_word = |c: &char| c.is_alphanumeric();
+    let length = match line.starts_with("//") {
+        true => line.len(),
+        false => line.chars().take_while(is_word).map(char::len_utf8).sum(),
+    };
+    (length > 0).then(|| Span::new(start, start + length))
+}
+
+/// The first line of `text` that holds something, without the blanks around it,
+/// and where it begins.
+fn first_line(text: &str) -> Option<(usize, &str)> {
+    let said = text.trim_start_matches(['\u{feff}', '\r', '\n', ' ', '\t']);
+    let line = said.split(['\r', '\n']).next().unwrap_or_default();
+    let line = line.trim_end();
+    (!line.is_empty()).then_some((text.len() - said.len(), line))
 }
 
 /// The bytes of a spec that stand for its ladder: the grafcet's name, else the
@@ -31,16 +55,8 @@ pub fn link_in_spec(spec: &Spec) -> Option<Span> {
     if let Some(name) = name {
         return Some(name.span);
     }
-    let said = spec
-        .text
-        .trim_start_matches(['\u{feff}', '\r', '\n', ' ', '\t']);
-    let start = spec.text.len() - said.len();
-    let line = said
-        .split(['\r', '\n'])
-        .next()
-        .unwrap_or_default()
-        .trim_end();
-    (!line.is_empty()).then(|| Span::new(start, start + line.len()))
+    let (start, line) = first_line(&spec.text)?;
+    Some(Span::new(start, start + line.len()))
 }
 
 #[cfg(test)]
@@ -65,8 +81,17 @@ mod tests {
             in_ladder("routine Doors main\nrung: a -> b"),
             Some((8, "Doors"))
         );
-        assert_eq!(in_ladder("rung: a -> b"), None);
         assert_eq!(in_ladder(""), None);
+    }
+
+    #[test]
+    fn a_ladder_without_a_name_is_linked_where_it_begins() {
+        assert_eq!(in_ladder("\nrung: a -> b"), Some((1, "rung")));
+        assert_eq!(
+            in_ladder("\u{feff}// Tänk \r\nrung: a -> b"),
+            Some((3, "// Tänk"))
+        );
+        assert_eq!(in_ladder("XIC(a)OTE(b);"), None);
     }
 
     #[test]

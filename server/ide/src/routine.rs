@@ -1,6 +1,6 @@
 //! Where the names of routines are written.
 
-use ::ladder::{Format, Routine};
+use ::ladder::{Format, Program, Routine};
 use source::Span;
 
 use crate::Ladder;
@@ -10,48 +10,57 @@ impl Ladder {
     /// The bytes that name a routine: in its heading, else in the heading of
     /// the unit around it. `None` where nothing in the text names it.
     pub fn routine_name(&self, routine: &Routine) -> Option<Span> {
-        let whole = routine.span.range();
-        let first_rung = routine.rungs.first().map_or(whole.end, |rung| {
-            rung.span.range().start.clamp(whole.start, whole.end)
-        });
-        let heading = self.text.get(whole.start..first_rung)?;
-        // A heading is one line, or one tag of XML.
-        let end = heading.find(['\n', '\r', '>']).unwrap_or(heading.len());
-        let at = |start: usize| Some(Span::new(start, start + routine.name.len()));
-        if let Some(found) = word(&heading[..end], &routine.name) {
-            return at(whole.start + found);
-        }
-        self.named_before(whole.start.max(first_rung), &routine.name)
+        routine_name(self.program(), &self.text, routine)
     }
 
     /// The bytes that name the unit, a program or a POU, that a routine belongs
     /// to.
     pub fn unit_name(&self, routine: &Routine) -> Option<Span> {
-        self.named_before(routine.span.range().start, &routine.unit)
+        unit_name(self.program(), &self.text, routine)
     }
+}
 
-    /// The last heading before the byte `end` that names a unit `name`.
-    fn named_before(&self, end: usize, name: &str) -> Option<Span> {
-        let before = self.text.get(..end)?;
-        let start = match self.program().format {
-            Format::Ladder => program_line(before, name)?,
-            Format::Plcopen | Format::L5x => {
-                let attribute = |quote: char| {
-                    let written = format!("ame={quote}{name}{quote}");
-                    Some(before.rfind(&written)? + "ame=.".len())
-                };
-                attribute('"').or_else(|| attribute('\''))?
-            }
-            Format::L5k => {
-                let words = ["PROGRAM ", "ADD_ON_INSTRUCTION_DEFINITION "];
-                let heading =
-                    |word: &str| Some(before.rfind(&format!("{word}{name} "))? + word.len());
-                words.into_iter().find_map(heading)?
-            }
-            _ => return None,
-        };
-        Some(Span::new(start, start + name.len()))
+/// The same of a program that was read from `text` and not analysed.
+pub(crate) fn routine_name(program: &Program, text: &str, routine: &Routine) -> Option<Span> {
+    let whole = routine.span.range();
+    let first_rung = routine.rungs.first().map_or(whole.end, |rung| {
+        rung.span.range().start.clamp(whole.start, whole.end)
+    });
+    let heading = text.get(whole.start..first_rung)?;
+    // A heading is one line, or one tag of XML.
+    let end = heading.find(['\n', '\r', '>']).unwrap_or(heading.len());
+    let at = |start: usize| Some(Span::new(start, start + routine.name.len()));
+    if let Some(found) = word(&heading[..end], &routine.name) {
+        return at(whole.start + found);
     }
+    named_before(program, text, whole.start.max(first_rung), &routine.name)
+}
+
+/// The same of a program that was read from `text` and not analysed.
+pub(crate) fn unit_name(program: &Program, text: &str, routine: &Routine) -> Option<Span> {
+    named_before(program, text, routine.span.range().start, &routine.unit)
+}
+
+/// The last heading before the byte `end` that names a unit `name`.
+fn named_before(program: &Program, text: &str, end: usize, name: &str) -> Option<Span> {
+    let before = text.get(..end)?;
+    let start = match program.format {
+        Format::Ladder => program_line(before, name)?,
+        Format::Plcopen | Format::L5x => {
+            let attribute = |quote: char| {
+                let written = format!("ame={quote}{name}{quote}");
+                Some(before.rfind(&written)? + "ame=.".len())
+            };
+            attribute('"').or_else(|| attribute('\''))?
+        }
+        Format::L5k => {
+            let words = ["PROGRAM ", "ADD_ON_INSTRUCTION_DEFINITION "];
+            let heading = |word: &str| Some(before.rfind(&format!("{word}{name} "))? + word.len());
+            words.into_iter().find_map(heading)?
+        }
+        _ => return None,
+    };
+    Some(Span::new(start, start + name.len()))
 }
 
 /// Where the last line `program NAME` of `text` has the name.

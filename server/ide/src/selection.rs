@@ -1,7 +1,8 @@
 //! What a growing selection takes, step by step: a name, its contact, the
 //! branch that this stands in, the rung, the routine.
 
-use ::ladder::Format;
+use ::ladder::text::branches as branches_of;
+use ::ladder::{Element, Format, Rung};
 use logic::notation::{Lexer, TokenKind};
 use source::Span;
 
@@ -35,6 +36,9 @@ pub fn selections_in_ladder(ladder: &Ladder, offset: usize) -> Vec<Span> {
             Format::Plcopen | Format::Ascii | Format::Unknown => Vec::new(),
         };
         spans.extend(branches.into_iter().map(|it| moved(it, rung.span)));
+        if program.format == Format::Plcopen {
+            spans.extend(drawn_branches(rung, offset));
+        }
     } else {
         let mut declarations = program.declarations.iter();
         let declared = declarations.find(|it| it.span.touches(offset));
@@ -92,6 +96,33 @@ fn line(text: &str, offset: usize) -> Option<Span> {
     let said = line.trim();
     let at = start + line.len() - line.trim_start().len();
     (!said.is_empty()).then(|| Span::new(at, at + said.len()))
+}
+
+/// The branches of a rung of which the elements stand one by one in the text, as
+/// far as those of a branch stand together.
+fn drawn_branches(rung: &Rung, offset: usize) -> Vec<Span> {
+    let elements: Vec<_> = rung.network.elements().skip(1).collect();
+    let at = elements
+        .iter()
+        .find(|(_, it)| rung.place(it.within).touches(offset));
+    let Some((at, _)) = at else {
+        return Vec::new();
+    };
+    let groups = branches_of(&rung.network).into_iter();
+    let around = groups
+        .filter(|group| group.contains(at))
+        .filter_map(|group| {
+            let own = group
+                .iter()
+                .map(|at| rung.place(rung.network.element(*at).within));
+            let span = own.reduce(Span::cover)?;
+            let strange = |(at, it): &&(_, &Element)| {
+                let its = rung.place(it.within);
+                !group.contains(at) && its.start < span.end && span.start < its.end
+            };
+            elements.iter().find(strange).is_none().then_some(span)
+        });
+    around.collect()
 }
 
 /// How a notation writes branches.

@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 
 use ide::hierarchy::{Direction, neighbours, stage_at};
 use ide::navigate::{Pair, Side, declaration, definition, highlights, references, subject};
-use ide::symbols::{Symbol, symbols_of_ladder};
+use ide::symbols::{Symbol, names_of_program, symbols_of_ladder};
 use ide::tokens::tokens_in_ladder;
-use ide::{Ladder, folds_in_ladder, link_in_ladder, selections_in_ladder};
+use ide::{Block, Ladder, folds_in_ladder, hover_in_ladder, link_in_ladder, selections_in_ladder};
 use logic::Budget;
 use source::Span;
 
@@ -33,6 +33,46 @@ fn files() -> Vec<PathBuf> {
     let mut files: Vec<PathBuf> = paths.filter(small).collect();
     files.sort();
     files
+}
+
+/// What a hover draws is no wider than editors show, and what it does not draw
+/// it says.
+#[test]
+fn drawings_in_hovers_fit() {
+    let (mut drawn, mut undrawn) = (0, 0);
+    for path in files() {
+        let Ok(text) = fs::read_to_string(&path) else {
+            continue;
+        };
+        let ladder = Ladder::read(text.into(), &Budget::default());
+        let mut shown = 0;
+        for routine in &ladder.program().routines {
+            let step = routine.rungs.len() / PLACES + 1;
+            for rung in routine.rungs.iter().step_by(step) {
+                let at = rung.span.range().start;
+                let Some(hover) = hover_in_ladder(&ladder, None, at, &Budget::default()) else {
+                    continue;
+                };
+                for block in &hover.blocks {
+                    match block {
+                        Block::Drawing(lines) => {
+                            drawn += 1;
+                            let widths = lines.lines().map(|line| line.chars().count());
+                            let widest = widths.max().unwrap_or_default();
+                            assert!(widest <= 76, "{}:\n{lines}", path.display());
+                        }
+                        Block::Text(text) if text.ends_with("to be drawn here.") => undrawn += 1,
+                        _ => {}
+                    }
+                }
+                shown += 1;
+            }
+            if shown > PLACES {
+                break;
+            }
+        }
+    }
+    println!("{drawn} rungs were drawn, {undrawn} are too large");
 }
 
 #[test]
@@ -64,7 +104,8 @@ fn lies_in(ladder: &Ladder, span: Span, path: &Path) {
 }
 
 fn lists(ladder: &Ladder, path: &Path) {
-    for symbol in &symbols_of_ladder(ladder) {
+    let names = names_of_program(ladder.program(), &ladder.text);
+    for symbol in symbols_of_ladder(ladder).iter().chain(&names) {
         symbols(ladder, symbol, path);
     }
     let mut end = 0;

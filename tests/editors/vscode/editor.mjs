@@ -129,15 +129,11 @@ export class Editor {
     });
   }
 
-  /**
-   * Opens the light bulb's menu at the cursor, or the one that a command opens, and takes the first action whose title
-   * matches.
-   */
-  async act(title, menu) {
+  /** Opens the light bulb's menu at the cursor, and takes the first action whose title matches. */
+  async act(title) {
     const rows = this.page.locator(".action-widget .monaco-list-row.action");
     const wanted = rows.filter({ hasText: title });
-    const ask = () => (menu ? this.run(menu) : this.keys.press("Control+."));
-    await this.pressUntil(`offer ${title}`, ask, wanted.first());
+    await this.pressUntil(`offer ${title}`, () => this.keys.press("Control+."), wanted.first());
     const focused = this.page.locator(".action-widget .monaco-list-row.action.focused");
     for (let i = await rows.count(); i > 0; i--) {
       if (title.test(plain(await focused.innerText()))) break;

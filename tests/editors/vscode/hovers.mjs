@@ -52,7 +52,7 @@ export function hovers(at) {
     await editor.open(doubled.ladder);
     await until("a finding", async () => (await editor.underlined(doubled.ladder, "warning").count()) > 0);
     await editor.nextFinding();
-    await editor.act(/Explain G2002/, "Source Action...");
+    await editor.act(/Explain G2002/);
     await editor.previews("G2002.md", "G2002");
   });
 

@@ -82,7 +82,7 @@ impl Profile {
                     "semanticTokens": semantic_tokens(),
                     "callHierarchy": { "dynamicRegistration": true }
                 },
-                "experimental": { "gradusStatus": true, "gradusVirtualDocuments": true }
+                "experimental": { "gradusStatus": true, "gradusVirtualDocuments": true, "gradusPages": true }
             }),
             Self::Neovim => json!({
                 "general": { "positionEncodings": ["utf-8", "utf-16", "utf-32"] },

@@ -34,7 +34,7 @@ end
 ---@return vim.lsp.ClientCapabilities
 local function capabilities()
   local all = vim.lsp.protocol.make_client_capabilities()
-  all.experimental = { gradusStatus = true }
+  all.experimental = { gradusStatus = true, gradusPages = true }
   return all
 end
 

@@ -65,6 +65,8 @@ pub struct Abilities {
     pub status: bool,
     /// It shows documents that the server makes.
     pub virtual_documents: bool,
+    /// It shows the page that `gradus.explain` answers.
+    pub pages: bool,
 }
 
 impl Abilities {
@@ -145,6 +147,7 @@ impl Abilities {
                 .is_some_and(|it| it.prepare_support == Some(true)),
             status: experimental("gradusStatus"),
             virtual_documents: experimental("gradusVirtualDocuments"),
+            pages: experimental("gradusPages"),
         }
     }
 }

@@ -5,8 +5,6 @@ use std::fs;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::SystemTime;
 
-use logic::Cancel;
-
 use super::document::Document;
 use super::key::FileKey;
 
@@ -35,7 +33,7 @@ impl Disk {
         {
             return Some(Arc::clone(document));
         }
-        let document = Arc::new(Document::closed(key, &Cancel::default())?);
+        let document = Arc::new(Document::closed(key)?);
         let mut files = self.lock();
         if files.len() >= KEPT {
             files.clear();

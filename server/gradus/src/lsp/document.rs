@@ -8,6 +8,7 @@
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
 use ide::language;
+use ide::symbols::{Symbol, names_of_program, symbols_of_spec};
 use ide::{Ladder, Spec};
 use logic::{Budget, Cancel};
 use ropey::Rope;
@@ -66,14 +67,10 @@ impl Document {
         }
     }
 
-    /// The document that a file holds, if it is text. Working out what it
-    /// means ends early when `cancel` is raised.
-    pub fn closed(key: &FileKey, cancel: &Cancel) -> Option<Self> {
+    /// The document that a file holds, if it is text.
+    pub fn closed(key: &FileKey) -> Option<Self> {
         let text = String::from_utf8(std::fs::read(key.path()?).ok()?).ok()?;
-        Some(Self {
-            outdated: cancel.clone(),
-            ..Self::new(key.uri()?, "", None, &text)
-        })
+        Some(Self::new(key.uri()?, "", None, &text))
     }
 
     /// The document after `changes`, made one after the other. This one is
@@ -199,6 +196,20 @@ impl Document {
         match self.contents() {
             Contents::Spec(spec) => Some(spec),
             _ => None,
+        }
+    }
+
+    /// The names in it, told from reading it alone, which takes a small part of
+    /// the time that an analysis does.
+    pub fn names(&self) -> Vec<Symbol> {
+        let text = self.rope.to_string();
+        match self.kind(&text) {
+            Kind::Spec => symbols_of_spec(&Spec::read(text.into())),
+            Kind::Foreign => Vec::new(),
+            Kind::Ladder(_) => {
+                let program = ladder::read(text.as_bytes()).program;
+                names_of_program(&program, &text)
+            }
         }
     }
 

@@ -1,21 +1,20 @@
 //! The names in whole folders, for finding a thing by its name.
 //!
-//! The first question reads every file of the client's folders; what was found
-//! in each is kept with its size and time, so that the next question only looks
-//! whether they have changed. Files that are open count as they are in the
-//! editor. Whoever stops waiting stops the search too; what was read until then
-//! stays known.
+//! The first question reads every file of the client's folders, but analyses
+//! none: names stand in the texts. What was found in each is kept with its size
+//! and time, so that the next question only looks whether they have changed.
+//! Files that are open count as they are in the editor. Whoever stops waiting
+//! stops the search too; what was read until then stays known.
 
 use std::collections::{BTreeSet, HashMap};
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, PoisonError, Weak};
 
-use ide::symbols::{Symbol, SymbolKind, symbols_of_ladder, symbols_of_spec};
-use logic::Cancel;
+use ide::symbols::{Symbol, SymbolKind};
 use tower_lsp::ls_types::{Range, Uri};
 
 use super::disk::Stamp;
-use super::document::{Contents, Document};
+use super::document::Document;
 use super::key::FileKey;
 use super::position::Encoding;
 use super::world::World;
@@ -64,8 +63,8 @@ const MOST_KEPT: usize = 2_000_000;
 
 impl Index {
     /// The names of all open documents and of all files in the client's
-    /// folders, by their keys; `None` once nobody waits any more.
-    pub fn all(&self, world: &World, cancel: &Cancel) -> Option<Vec<Listed>> {
+    /// folders, by their keys; `None` once the answer is not `wanted` any more.
+    pub fn all(&self, world: &World, wanted: &dyn Fn() -> bool) -> Option<Vec<Listed>> {
         let open = world.open.values().filter(|it| is_of_its_own(&it.uri));
         let mut keys: BTreeSet<FileKey> = open.map(|it| it.key.clone()).collect();
         let folders: Vec<PathBuf> = world
@@ -73,22 +72,25 @@ impl Index {
             .iter()
             .filter_map(|it| it.path().map(PathBuf::from))
             .collect();
-        let found = expand_while(&folders, ENDINGS, &|| !cancel.is_cancelled());
+        let found = expand_while(&folders, ENDINGS, wanted);
         let files = found.candidates.iter().take(MOST_FILES);
         keys.extend(files.map(|it| FileKey::of_path(&it.path)));
         let mut all = Vec::new();
         for key in &keys {
-            if cancel.is_cancelled() {
+            if !wanted() {
                 return None;
             }
-            all.extend(self.listed(world, key, cancel));
+            all.extend(self.listed(world, key));
         }
-        self.forget_all_but(&keys);
-        (!cancel.is_cancelled()).then_some(all)
+        // What was found until somebody stopped it is not all that there is.
+        wanted().then(|| {
+            self.forget_all_but(&keys);
+            all
+        })
     }
 
     /// The names of one file.
-    fn listed(&self, world: &World, key: &FileKey, cancel: &Cancel) -> Option<Listed> {
+    fn listed(&self, world: &World, key: &FileKey) -> Option<Listed> {
         let (seen, document) = match world.open.get(key) {
             Some(document) => {
                 let seen = Seen::Open(Arc::downgrade(document));
@@ -104,7 +106,7 @@ impl Index {
                 if let Some(known) = self.known(key, &seen) {
                     return Some(known);
                 }
-                let document = Document::closed(key, cancel)?;
+                let document = Document::closed(key)?;
                 (seen, Arc::new(document))
             }
         };
@@ -112,10 +114,6 @@ impl Index {
             uri: document.uri.clone(),
             entries: entries(&document, world.encoding()).into(),
         };
-        // What a cancelled analysis has left out would be missing for good.
-        if document.is_outdated() || cancel.is_cancelled() {
-            return None;
-        }
         self.keep(key, seen, &listed);
         Some(listed)
     }
@@ -157,13 +155,8 @@ fn is_of_its_own(uri: &Uri) -> bool {
 
 /// The names in a document that people look for.
 fn entries(document: &Document, encoding: Encoding) -> Vec<Entry> {
-    let symbols = match document.contents() {
-        Contents::Ladder(ladder) if ladder.is_known() => symbols_of_ladder(ladder),
-        Contents::Spec(spec) => symbols_of_spec(spec),
-        _ => Vec::new(),
-    };
     let mut entries = Vec::new();
-    add(&symbols, None, document, encoding, &mut entries);
+    add(&document.names(), None, document, encoding, &mut entries);
     entries
 }
 
@@ -218,7 +211,7 @@ mod tests {
         std::fs::write(&two, "rung: a -> c").expect("a file");
         let world = world(folder.path());
         let all = || {
-            let found = world.index.all(&world, &Cancel::default());
+            let found = world.index.all(&world, &|| true);
             found.expect("an answer")
         };
         let first = all();
@@ -248,9 +241,7 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         std::fs::write(folder.path().join("a.ladder"), "rung: a -> b").expect("a file");
         let world = world(folder.path());
-        let cancelled = Cancel::default();
-        cancelled.cancel();
-        assert!(world.index.all(&world, &cancelled).is_none());
+        assert!(world.index.all(&world, &|| false).is_none());
         assert!(world.index.lock().is_empty());
     }
 }

@@ -24,6 +24,7 @@ mod disk;
 mod document;
 mod edit;
 mod fault;
+mod folders;
 mod guard;
 mod index;
 mod key;

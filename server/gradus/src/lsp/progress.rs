@@ -8,10 +8,10 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
+use logic::Cancel;
 use tokio::sync::oneshot;
 use tower_lsp::ls_types::ProgressToken;
 
-use super::document::Document;
 use super::key::FileKey;
 use super::server::Shared;
 use super::telling::answer;
@@ -19,16 +19,35 @@ use super::telling::answer;
 /// What ends sooner is not shown.
 const SHORT: Duration = Duration::from_millis(500);
 
-/// What is shown, and the documents that it is about.
+/// What is shown, by its tokens.
 #[derive(Debug, Default)]
 pub struct Shown {
     next: AtomicU32,
-    documents: Mutex<HashMap<ProgressToken, FileKey>>,
+    work: Mutex<HashMap<ProgressToken, Work>>,
+}
+
+/// Work that may take long.
+#[derive(Clone, Debug)]
+pub enum Work {
+    /// A document is analysed, for all who ask for it.
+    Analysis(FileKey),
+    /// Names are looked for in the client's folders. The flag is raised by who
+    /// does not want to wait for them.
+    Search(Cancel),
+}
+
+impl Work {
+    fn title(&self) -> String {
+        match self {
+            Self::Analysis(document) => format!("Analysing {}", document.name()),
+            Self::Search(_) => "Reading the names in all files".to_owned(),
+        }
+    }
 }
 
 impl Shown {
-    /// The document that a token is about, while its progress is shown.
-    pub fn document(&self, token: &ProgressToken) -> Option<FileKey> {
+    /// What a token is about, while its progress is shown.
+    pub fn work(&self, token: &ProgressToken) -> Option<Work> {
         self.lock().get(token).cloned()
     }
 
@@ -37,36 +56,33 @@ impl Shown {
         ProgressToken::String(format!("gradus/{number}"))
     }
 
-    fn lock(&self) -> MutexGuard<'_, HashMap<ProgressToken, FileKey>> {
-        self.documents
-            .lock()
-            .unwrap_or_else(PoisonError::into_inner)
+    fn lock(&self) -> MutexGuard<'_, HashMap<ProgressToken, Work>> {
+        self.work.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
-/// Work under way, which ends when this is dropped.
+/// Says that work is under way, until it is dropped.
 #[derive(Debug)]
 pub struct UnderWay {
     _open: Option<oneshot::Sender<()>>,
 }
 
-/// Shows that work on `document` is under way, if it takes long and the client
-/// can show it.
-pub fn under_way(shared: &Arc<Shared>, document: &Document) -> UnderWay {
+/// Shows that `work` is under way, if it takes long and the client can show it.
+pub fn under_way(shared: &Arc<Shared>, work: Work) -> UnderWay {
     if !shared.state.world().abilities.progress {
         return UnderWay { _open: None };
     }
     let (open, done) = oneshot::channel();
-    tokio::spawn(show(Arc::clone(shared), document.key.clone(), done));
+    tokio::spawn(show(Arc::clone(shared), work, done));
     UnderWay { _open: Some(open) }
 }
 
-async fn show(shared: Arc<Shared>, key: FileKey, mut done: oneshot::Receiver<()>) {
+async fn show(shared: Arc<Shared>, work: Work, mut done: oneshot::Receiver<()>) {
     if tokio::time::timeout(SHORT, &mut done).await.is_ok() {
         return;
     }
     let token = shared.progress.token();
-    let title = format!("Analysing {}", key.name());
+    let title = work.title();
     let asked = answer(shared.client.create_work_done_progress(token.clone()));
     let agreed = tokio::select! {
         biased;
@@ -76,7 +92,7 @@ async fn show(shared: Arc<Shared>, key: FileKey, mut done: oneshot::Receiver<()>
     if !agreed {
         return;
     }
-    shared.progress.lock().insert(token.clone(), key);
+    shared.progress.lock().insert(token.clone(), work);
     let progress = shared.client.progress(token.clone(), title);
     let progress = progress.with_cancel_button().begin().await;
     // Nothing is ever sent: it ends when the other half is dropped.

@@ -18,22 +18,22 @@ use super::world::World;
 /// Everything there is to say about a document, as the client shows it.
 pub fn diagnostics(world: &World, document: &Arc<Document>, budget: &Budget) -> Vec<Diagnostic> {
     fault::forced(fault::DIAGNOSTICS);
-    if !world.config.diagnostics.enable {
+    let found = shown(world, document, budget);
+    let found = found.iter();
+    found.map(|it| diagnostic(world, document, it)).collect()
+}
+
+/// The findings in a document that the user wants to see.
+pub fn shown(world: &World, document: &Document, budget: &Budget) -> Vec<source::Diagnostic> {
+    let wanted = &world.config.diagnostics;
+    if !wanted.enable {
         return Vec::new();
     }
-    let ignored: HashSet<Code> = world
-        .config
-        .diagnostics
-        .ignore
-        .iter()
-        .filter_map(|code| Code::parse(code))
-        .collect();
-    let found = document.findings(world, budget);
+    let ignored = wanted.ignore.iter().filter_map(|code| Code::parse(code));
+    let ignored: HashSet<Code> = ignored.collect();
+    let mut found = document.findings(world, budget);
+    found.retain(|it| !ignored.contains(&it.code));
     found
-        .iter()
-        .filter(|finding| !ignored.contains(&finding.code))
-        .map(|finding| diagnostic(world, document, finding))
-        .collect()
 }
 
 /// A finding in the protocol's types. To a client that does not show other

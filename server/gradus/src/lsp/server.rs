@@ -7,6 +7,7 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use logic::Cancel;
 use tower_lsp::jsonrpc::{Error, Result};
 use tower_lsp::ls_types::*;
 use tower_lsp::{Client, ClientSocket, LanguageServer, LspService};
@@ -17,13 +18,13 @@ use super::config::Config;
 use super::document::Document;
 use super::key::FileKey;
 use super::log::Log;
-use super::progress::{self, Shown};
+use super::progress::{self, Shown, Work};
 use super::query::{self, Query, about};
 use super::requests::command::Command;
 use super::teller::Tellers;
 use super::transport::Output;
 use super::world::State;
-use super::{parent, publish, requests, telling};
+use super::{folders, parent, publish, requests, telling};
 
 /// How the server ended.
 #[derive(Clone, Debug, Default)]
@@ -84,13 +85,17 @@ impl Server {
     /// Gives up the work that a progress is about. Whoever asks for what it was
     /// to find out begins it anew.
     async fn stop(&self, params: WorkDoneProgressCancelParams) {
-        if let Some(key) = self.shared.progress.document(&params.token) {
-            self.shared.state.change(|world| {
-                if let Some(document) = world.open.get_mut(&key) {
-                    *document = Arc::new(document.renewed());
-                }
-            });
-            self.shared.tellers.stop(&key);
+        match self.shared.progress.work(&params.token) {
+            Some(Work::Analysis(key)) => {
+                self.shared.state.change(|world| {
+                    if let Some(document) = world.open.get_mut(&key) {
+                        *document = Arc::new(document.renewed());
+                    }
+                });
+                self.shared.tellers.stop(&key);
+            }
+            Some(Work::Search(stopped)) => stopped.cancel(),
+            None => {}
         }
     }
 
@@ -144,11 +149,11 @@ impl LanguageServer for Server {
         if let Some(id) = params.process_id {
             parent::watch(id);
         }
-        let folders = params.workspace_folders.unwrap_or_default();
+        let folders = folders::at_first(&params);
         let capabilities = capabilities(&abilities);
         self.shared.state.change(|world| {
             world.abilities = Arc::new(abilities);
-            world.folders = folders.iter().map(|it| FileKey::of(&it.uri)).collect();
+            world.folders = folders;
         });
         if let Some(settings) = params.initialization_options {
             self.configure(&settings);
@@ -235,17 +240,9 @@ impl LanguageServer for Server {
     }
 
     async fn did_change_workspace_folders(&self, params: DidChangeWorkspaceFoldersParams) {
-        let removed: Vec<_> = params
-            .event
-            .removed
-            .iter()
-            .map(|it| FileKey::of(&it.uri))
-            .collect();
-        let added = params.event.added.iter().map(|it| FileKey::of(&it.uri));
-        self.shared.state.change(|world| {
-            world.folders.retain(|it| !removed.contains(it));
-            world.folders.extend(added);
-        });
+        self.shared
+            .state
+            .change(|world| folders::changed(&mut world.folders, &params.event));
     }
 
     async fn did_change_watched_files(&self, params: DidChangeWatchedFilesParams) {
@@ -272,7 +269,8 @@ impl LanguageServer for Server {
     ) -> Result<DocumentDiagnosticReportResult> {
         let world = self.shared.state.world();
         let open = world.open.get(&FileKey::of(&params.text_document.uri));
-        let _under_way = open.map(|document| progress::under_way(&self.shared, document));
+        let work = open.map(|document| Work::Analysis(document.key.clone()));
+        let _under_way = work.map(|work| progress::under_way(&self.shared, work));
         let found = about(world, params.text_document.uri, |query| {
             let (world, document) = (&query.world, &query.document);
             Some(publish::diagnostics(world, document, &query.budget))
@@ -409,8 +407,11 @@ impl LanguageServer for Server {
         params: WorkspaceSymbolParams,
     ) -> Result<Option<WorkspaceSymbolResponse>> {
         let world = self.shared.state.world();
+        let stopped = Cancel::default();
+        let _under_way = progress::under_way(&self.shared, Work::Search(stopped.clone()));
         query::elsewhere(move |cancel| {
-            requests::symbols::in_folders(&world, &params.query, &cancel)
+            let wanted = || !cancel.is_cancelled() && !stopped.is_cancelled();
+            requests::symbols::in_folders(&world, &params.query, &wanted)
         })
         .await
     }

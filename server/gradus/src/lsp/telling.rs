@@ -17,7 +17,7 @@ use tower_lsp::ls_types::{
 use super::config::Config;
 use super::document::Document;
 use super::key::FileKey;
-use super::progress;
+use super::progress::{self, Work};
 use super::publish;
 use super::query::elsewhere;
 use super::requests::command::Done;
@@ -212,7 +212,7 @@ async fn tell(shared: &Arc<Shared>, key: &FileKey, in_vain: Cancel) {
         cancel: in_vain.clone(),
         ..Budget::default()
     };
-    let under_way = progress::under_way(shared, &document);
+    let under_way = progress::under_way(shared, Work::Analysis(document.key.clone()));
     let found = elsewhere(move |_| publish::diagnostics(&world, &current, &budget)).await;
     drop(under_way);
     match found {

@@ -7,8 +7,8 @@ use source::{Diagnostic, Edit, Fix, Span, codes};
 use super::{Action, ActionKind, Effect};
 use crate::{Change, Departing, Spec};
 
-/// What mends the findings, and what explains them.
-pub(super) fn mending(findings: &[Diagnostic]) -> Vec<Action> {
+/// What mends the findings.
+pub(super) fn fixing(findings: &[Diagnostic]) -> Vec<Action> {
     let fixes = findings.iter().filter_map(|finding| {
         let fix = finding.fix.clone()?;
         Some(Action {
@@ -18,17 +18,32 @@ pub(super) fn mending(findings: &[Diagnostic]) -> Vec<Action> {
             effect: Effect::Here(fix),
         })
     });
-    let mut all: Vec<Action> = fixes.collect();
-    let mut explained: Vec<_> = findings.iter().map(|finding| finding.code).collect();
-    explained.sort();
-    explained.dedup();
-    all.extend(explained.into_iter().map(|code| Action {
+    fixes.collect()
+}
+
+/// What explains the findings.
+pub(super) fn explaining(findings: &[Diagnostic]) -> Vec<Action> {
+    let mut codes: Vec<_> = findings.iter().map(|finding| finding.code).collect();
+    codes.sort();
+    codes.dedup();
+    let explained = codes.into_iter().map(|code| Action {
         title: format!("Explain {code}: {}", code.title()),
         kind: ActionKind::Explain,
         preferred: false,
         effect: Effect::Show(code),
-    }));
-    all
+    });
+    explained.collect()
+}
+
+/// What mends all rules that depart from the ladder at once, offered at each.
+pub(super) fn renewing(findings: &[Diagnostic]) -> Option<Action> {
+    let departs = |it: &Diagnostic| it.code == codes::RULE_NOT_SUPPORTED;
+    findings.iter().any(departs).then(|| Action {
+        title: "Take over all that the ladder gives".to_owned(),
+        kind: ActionKind::Fix,
+        preferred: false,
+        effect: Effect::Spec(Vec::new(), Departing::Renewed),
+    })
 }
 
 /// Lets rules that depart from the ladder stay as they are, by saying so.

@@ -11,7 +11,7 @@ use recovery::successions::Evidence;
 use source::{Code, Diagnostic, Fix, Span};
 
 use crate::{Change, Departing, Ladder, Spec};
-use mend::mending;
+use mend::{explaining, fixing, keeping, renewing, withdrawing};
 use states::{about_states, in_ladder, in_spec};
 
 /// Something that can be done.
@@ -42,7 +42,7 @@ pub enum ActionKind {
     Initial,
     /// Takes a decision back.
     Undo,
-    /// Brings the spec up to the ladder.
+    /// Makes the spec.
     Convert,
     /// Explains a finding.
     Explain,
@@ -59,20 +59,25 @@ pub enum Effect {
     Show(Code),
 }
 
-/// All that can be done where `span` is in a ladder, best first. `findings` are
-/// those that the place is about; suggestions weaker than `weakest` are left
-/// out.
-pub fn actions_in_ladder(
-    ladder: &Ladder,
-    spec: Option<&Spec>,
-    span: Span,
-    findings: &[Diagnostic],
-    weakest: Evidence,
-    budget: &Budget,
-) -> Vec<Action> {
-    let mut all = mending(findings);
-    let states = in_ladder(ladder, span);
-    all.extend(about_states(ladder, spec, &states, weakest, budget));
+/// Where somebody asks what can be done.
+#[derive(Clone, Copy, Debug)]
+pub struct Asked<'a> {
+    /// What is selected; empty where a caret stands.
+    pub span: Span,
+    /// The findings that the place is about.
+    pub findings: &'a [Diagnostic],
+    /// Suggestions weaker than this are left out.
+    pub weakest: Evidence,
+    /// What answering may cost.
+    pub budget: &'a Budget,
+}
+
+/// All that can be done at a place in a ladder, best first.
+pub fn actions_in_ladder(ladder: &Ladder, spec: Option<&Spec>, asked: Asked<'_>) -> Vec<Action> {
+    let mut all = fixing(asked.findings);
+    all.extend(explaining(asked.findings));
+    let states = in_ladder(ladder, asked.span);
+    all.extend(about_states(ladder, spec, &states, asked));
     if spec.is_none() && !ladder.analysis.groups().is_empty() {
         all.push(Action {
             title: "Create the spec beside the ladder".to_owned(),
@@ -84,32 +89,18 @@ pub fn actions_in_ladder(
     all
 }
 
-/// All that can be done where `span` is in a spec, best first.
-pub fn actions_in_spec(
-    spec: &Spec,
-    ladder: Option<&Ladder>,
-    span: Span,
-    findings: &[Diagnostic],
-    weakest: Evidence,
-    budget: &Budget,
-) -> Vec<Action> {
-    let mut all = mending(findings);
-    all.extend(mend::keeping(spec, findings));
+/// All that can be done at a place in a spec, best first.
+pub fn actions_in_spec(spec: &Spec, ladder: Option<&Ladder>, asked: Asked<'_>) -> Vec<Action> {
+    let mut all = fixing(asked.findings);
+    all.extend(keeping(spec, asked.findings));
+    if ladder.is_some() {
+        all.extend(renewing(asked.findings));
+    }
+    all.extend(explaining(asked.findings));
     if let Some(ladder) = ladder {
-        all.extend(mend::withdrawing(spec, span));
-        let states = in_spec(spec, span);
-        all.extend(about_states(ladder, Some(spec), &states, weakest, budget));
-        if findings
-            .iter()
-            .any(|it| it.code == source::codes::RULE_NOT_SUPPORTED)
-        {
-            all.push(Action {
-                title: "Take over all that the ladder gives".to_owned(),
-                kind: ActionKind::Convert,
-                preferred: false,
-                effect: Effect::Spec(Vec::new(), Departing::Renewed),
-            });
-        }
+        all.extend(withdrawing(spec, asked.span));
+        let states = in_spec(spec, asked.span);
+        all.extend(about_states(ladder, Some(spec), &states, asked));
     }
     all
 }
@@ -138,6 +129,15 @@ rung: (ls3 + v3) * ls1 -> v3
         (text.replace("$1", ""), Span::new(start, end))
     }
 
+    fn asked<'a>(span: Span, findings: &'a [Diagnostic], budget: &'a Budget) -> Asked<'a> {
+        Asked {
+            span,
+            findings,
+            weakest: Evidence::Possible,
+            budget,
+        }
+    }
+
     /// The titles of what can be done at `$0`, or where `$0` and `$1` are around
     /// it, with `spec` beside the ladder.
     fn titles(text: &str, spec: Option<&str>) -> Vec<String> {
@@ -145,14 +145,7 @@ rung: (ls3 + v3) * ls1 -> v3
         let budget = Budget::default();
         let ladder = Ladder::read(text.into(), &budget);
         let spec = spec.map(|text| Spec::read(text.into()));
-        let all = actions_in_ladder(
-            &ladder,
-            spec.as_ref(),
-            span,
-            &[],
-            Evidence::Possible,
-            &budget,
-        );
+        let all = actions_in_ladder(&ladder, spec.as_ref(), asked(span, &[], &budget));
         all.into_iter().map(|action| action.title).collect()
     }
 
@@ -227,14 +220,7 @@ rung: (ls3 + v3) * ls1 -> v3
         let start = span.range().start;
         let here = findings.into_iter().filter(|it| it.span.touches(start));
         let here: Vec<Diagnostic> = here.collect();
-        let all = actions_in_spec(
-            &spec,
-            Some(&ladder),
-            span,
-            &here,
-            Evidence::Possible,
-            &budget,
-        );
+        let all = actions_in_spec(&spec, Some(&ladder), asked(span, &here, &budget));
         all.into_iter().map(|action| action.title).collect()
     }
 
@@ -250,12 +236,9 @@ rung: (ls3 + v3) * ls1 -> v3
         };
         let titles = in_spec(&edited);
         assert_eq!(titles[0], "Take over what the ladder gives");
-        assert!(titles[1].starts_with("Explain G3101"), "{titles:?}");
-        assert!(titles[2].starts_with("Keep "), "{titles:?}");
-        assert_eq!(
-            titles.last().expect("some"),
-            "Take over all that the ladder gives"
-        );
+        assert!(titles[1].starts_with("Keep "), "{titles:?}");
+        assert_eq!(titles[2], "Take over all that the ladder gives");
+        assert!(titles[3].starts_with("Explain G3101"), "{titles:?}");
     }
 
     #[test]

@@ -7,7 +7,7 @@ use recovery::successions::{Evidence, Kind, Succession};
 use source::Span;
 
 use super::mend::said;
-use super::{Action, ActionKind, Effect, pair};
+use super::{Action, ActionKind, Asked, Effect, pair};
 use crate::change::listed;
 use crate::{Change, Decided, Departing, Ladder, Spec, Standing, legible};
 
@@ -112,14 +112,13 @@ pub(super) fn about_states(
     ladder: &Ladder,
     spec: Option<&Spec>,
     states: &[Name],
-    weakest: Evidence,
-    budget: &Budget,
+    asked: Asked<'_>,
 ) -> Vec<Action> {
     let view = View {
         ladder,
         decided: spec.map(Decided::of).unwrap_or_default(),
-        weakest,
-        budget,
+        weakest: asked.weakest,
+        budget: asked.budget,
     };
     let mut all = Vec::new();
     for two in states.windows(2) {

@@ -47,7 +47,7 @@ pub(super) fn blocks(
         ]));
     }
     if coil.part == Part::State {
-        blocks.push(Block::Text(neighbours(coil.name, ladder, spec, budget)));
+        blocks.push(Block::Fields(neighbours(coil.name, ladder, spec, budget)));
     }
     blocks
 }
@@ -80,7 +80,7 @@ pub(super) fn neighbours(
     ladder: &Ladder,
     spec: Option<&Spec>,
     budget: &Budget,
-) -> String {
+) -> Vec<(&'static str, String)> {
     let decided = spec.map(Decided::of).unwrap_or_default();
     let all = &ladder.analysis.successions();
     let word = |succession: &Succession, other: &Name| {
@@ -98,23 +98,30 @@ pub(super) fn neighbours(
         }
         format!("{other} ({})", words.join(", "))
     };
-    let before: Vec<String> = all
-        .iter()
-        .filter(|it| it.to == *name)
-        .map(|it| word(it, &it.from))
-        .collect();
-    let after: Vec<String> = all
-        .iter()
-        .filter(|it| it.from == *name)
-        .map(|it| word(it, &it.to))
-        .collect();
-    let said = |list: Vec<String>, none: &str, some: &str| match list.is_empty() {
-        true => none.to_owned(),
-        false => format!("{some} {}", list.join(", ")),
-    };
-    format!(
-        "{} · {}",
-        said(before, "follows nothing that is known", "follows"),
-        said(after, "nothing known follows", "followed by")
-    )
+    let before = all.iter().filter(|it| it.to == *name);
+    let after = all.iter().filter(|it| it.from == *name);
+    let mut fields: Vec<_> = listed("follows", before.map(|it| word(it, &it.from))).collect();
+    fields.extend(listed("followed by", after.map(|it| word(it, &it.to))));
+    fields
+}
+
+/// Neighbours that are named on each side.
+const MOST_NEIGHBOURS: usize = 8;
+
+/// A line for each of a list, the first with the label.
+fn listed(
+    label: &'static str,
+    all: impl Iterator<Item = String>,
+) -> impl Iterator<Item = (&'static str, String)> {
+    let mut lines: Vec<String> = all.collect();
+    let more = lines.len().saturating_sub(MOST_NEIGHBOURS);
+    if more > 1 {
+        lines.truncate(MOST_NEIGHBOURS);
+        lines.push(format!("and {more} more"));
+    }
+    if lines.is_empty() {
+        lines.push("nothing that is known".to_owned());
+    }
+    let labels = std::iter::once(label).chain(std::iter::repeat(""));
+    labels.zip(lines)
 }

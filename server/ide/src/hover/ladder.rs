@@ -5,7 +5,7 @@ use logic::{Budget, Name};
 use recovery::conditions::Place;
 use source::Span;
 
-use super::{Block, Hover, coil};
+use super::{Block, Hover, WIDTH, coil};
 use crate::{Ladder, Mention, Spec, Usage, describe, element, legible};
 
 /// What is known of the thing at the byte `offset` of a ladder: a variable, a
@@ -258,7 +258,23 @@ fn of_rung(ladder: &Ladder, place: Place, budget: &Budget) -> Option<Hover> {
     })
 }
 
+/// The rung in characters, or that it cannot be drawn.
 fn drawing(ladder: &Ladder, place: Place) -> Option<Block> {
     let (_, rung) = ladder.rung(place)?;
-    ::ladder::text::draw(&rung.network).map(Block::Drawing)
+    if rung.network.is_empty() {
+        return None;
+    }
+    Some(match ::ladder::text::draw(&rung.network, WIDTH) {
+        Some(lines) => Block::Drawing(lines),
+        None => Block::Text(format!(
+            "{} is too large to be drawn here.",
+            capitalised(&rung_title(ladder, place)?)
+        )),
+    })
+}
+
+fn capitalised(text: &str) -> String {
+    let mut signs = text.chars();
+    let first = signs.next().map(|c| c.to_uppercase().to_string());
+    first.unwrap_or_default() + signs.as_str()
 }

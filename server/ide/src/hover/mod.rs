@@ -6,9 +6,13 @@
 
 mod coil;
 mod ladder;
+mod markdown;
 mod spec;
 
 use source::Span;
+
+use crate::condition::broken;
+use markdown::escaped;
 
 pub use ladder::{hover_in_ladder, hover_of_variable};
 pub use spec::hover_in_spec;
@@ -31,7 +35,8 @@ pub struct Hover {
 /// A part of a hover.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Block {
-    /// Labels with conditions, one a line, in columns.
+    /// Labels with conditions, in columns, as they are. What a condition is
+    /// broken into has one label.
     Fields(Vec<(&'static str, String)>),
     /// A sentence or two.
     Text(String),
@@ -49,13 +54,11 @@ impl Hover {
         if !self.summary.is_empty() {
             out += &format!("  \n{}", escaped(&self.summary));
         }
-        for block in &self.blocks {
-            out += "\n\n";
-            match block {
-                Block::Fields(fields) => out += &format!("```text\n{}\n```", columns(fields)),
-                Block::Text(text) => out += &escaped(text),
-                Block::Drawing(lines) => out += &format!("```text\n{lines}\n```"),
-            }
+        for part in parts(&self.blocks) {
+            out += &match part {
+                Part::Words(words) => format!("\n\n{}", escaped(words)),
+                Part::Lines(lines) => format!("\n\n```text\n{lines}\n```"),
+            };
         }
         out
     }
@@ -69,41 +72,56 @@ impl Hover {
         if !self.summary.is_empty() {
             out += &format!("\n{}", self.summary);
         }
-        for block in &self.blocks {
-            out += "\n\n";
-            match block {
-                Block::Fields(fields) => out += &columns(fields),
-                Block::Text(text) | Block::Drawing(text) => out += text,
-            }
+        for part in parts(&self.blocks) {
+            out += &match part {
+                Part::Words(words) => format!("\n\n{words}"),
+                Part::Lines(lines) => format!("\n\n{lines}"),
+            };
         }
         out
     }
 }
 
-fn columns(fields: &[(&'static str, String)]) -> String {
-    let width = fields
-        .iter()
-        .map(|(label, _)| label.len())
-        .max()
-        .unwrap_or(0);
-    let lines = fields
-        .iter()
-        .map(|(label, text)| format!("{label:width$}  {text}"));
-    lines.collect::<Vec<_>>().join("\n")
+/// What is shown in one piece.
+enum Part<'b> {
+    /// Words, to be broken where they are shown.
+    Words(&'b str),
+    /// Lines as they are.
+    Lines(String),
 }
 
-/// `text` as Markdown shows it. Comments in programs are people's own words and
-/// may hold anything.
-fn escaped(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    for c in text.chars() {
-        if matches!(
-            c,
-            '\\' | '`' | '*' | '_' | '[' | ']' | '<' | '>' | '#' | '|' | '~' | '&'
-        ) {
-            out.push('\\');
+/// The parts of a hover. What stands in lines is one part, with the same columns
+/// and blank lines between, up to the next words.
+fn parts(blocks: &[Block]) -> Vec<Part<'_>> {
+    let is_words = |block: &Block| matches!(block, Block::Text(_));
+    let runs = blocks.chunk_by(|a, b| !is_words(a) && !is_words(b));
+    let shown = runs.map(|run| match run {
+        [Block::Text(words)] => Part::Words(words),
+        run => {
+            let labels = run.iter().flat_map(|block| match block {
+                Block::Fields(fields) => fields.as_slice(),
+                _ => &[],
+            });
+            let start = labels.map(|(label, _)| label.len()).max().unwrap_or(0) + 2;
+            let lines = run.iter().map(|block| match block {
+                Block::Fields(fields) => columns(fields, start),
+                Block::Text(lines) | Block::Drawing(lines) => lines.clone(),
+            });
+            Part::Lines(lines.collect::<Vec<_>>().join("\n\n"))
         }
-        out.push(c);
-    }
-    out
+    });
+    shown.collect()
+}
+
+/// How wide a hover may be: in columns, as many as editors show without breaking
+/// lines.
+const WIDTH: usize = 76;
+
+/// Labels, and what belongs to them from the column `start` on.
+fn columns(fields: &[(&'static str, String)], start: usize) -> String {
+    let lines = fields.iter().map(|(label, text)| {
+        let line = format!("{label:start$}{}", broken(text, start, WIDTH));
+        line.trim_end().to_owned()
+    });
+    lines.collect::<Vec<_>>().join("\n")
 }

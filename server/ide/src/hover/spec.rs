@@ -157,7 +157,7 @@ fn of_state(
             Some(title) => format!("{title}: value of a step register"),
             None => "value of a step register".to_owned(),
         },
-        blocks: vec![Block::Text(coil::neighbours(
+        blocks: vec![Block::Fields(coil::neighbours(
             state,
             ladder,
             Some(spec),

@@ -60,10 +60,15 @@ pub fn definition(pair: Pair<'_>, side: Side, offset: usize) -> Option<Jump> {
     jump(named.span, to)
 }
 
-/// Where the thing at the byte `offset` is declared, in the same text.
+/// Where the thing at the byte `offset` is declared, in the same text. What no
+/// line of a ladder declares begins where it is first written.
 pub fn declaration(pair: Pair<'_>, side: Side, offset: usize) -> Option<Jump> {
     let named = named(pair, side, offset)?;
-    let to = declared(pair, side, &named.subject);
+    let mut to = declared(pair, side, &named.subject);
+    if let (Subject::Variable(name), Side::Ladder, true) = (&named.subject, side, to.is_empty()) {
+        let all = pair.ladder.map_or(Vec::new(), |it| writers(it, name));
+        to.extend(all.into_iter().min());
+    }
     jump(named.span, to)
 }
 
@@ -316,5 +321,11 @@ rung: Seq = 20 * back -> Seq := 0
         assert_eq!(declared(LADDER, &spec), ["spec 1: Xv1"]);
         let ladder = with_cursor(LADDER, "-> v$01");
         assert_eq!(declared(&ladder, SPEC), ["ladder 3: output v1 %Q0"]);
+        // Nothing declares these.
+        let ladder = "rung: d1.E1 * a -> b\nrung: c -> set d1.E1\nrung: $0d1.E1 -> reset d1.E1";
+        assert_eq!(declared(ladder, ""), ["ladder 2: set d1.E1"]);
+        let ladder = "rung: a -> TON(t1, 5s)\nrung: t1$0.Q -> b";
+        assert_eq!(declared(ladder, ""), ["ladder 1: TON(t1, 5s)"]);
+        assert_eq!(declared("rung: $0a -> b", ""), [""; 0]);
     }
 }

@@ -25,8 +25,8 @@ use crate::{Ladder, Spec};
 pub use definition::{Jump, declaration, definition};
 pub use highlight::highlights;
 pub use references::references;
-pub(crate) use subject::state_of;
 pub use subject::{Subject, subject};
+pub(crate) use subject::{state_of, written};
 
 /// A ladder and the spec beside it, as far as they are there.
 #[derive(Clone, Copy, Debug, Default)]

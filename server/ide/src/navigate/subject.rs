@@ -133,7 +133,7 @@ pub(super) fn definition_of(ladder: &Ladder, name: &str) -> Option<usize> {
 
 /// The value of a step register that an element compares with or writes.
 pub(crate) fn state_of(ladder: &Ladder, kind: &ElementKind) -> Option<Name> {
-    let (register, value): (&str, i64) = match kind {
+    let (number, value) = match kind {
         ElementKind::Comparison(Comparison {
             left,
             relation: Relation::Equal,
@@ -143,16 +143,23 @@ pub(crate) fn state_of(ladder: &Ladder, kind: &ElementKind) -> Option<Name> {
             (Ok(value), _) => (&right.name, value),
             _ => return None,
         },
-        ElementKind::Assign(assignment) => match assignment.value {
-            Value::Constant(value) => (&assignment.target.name, value),
-            _ => return None,
-        },
-        _ => return None,
+        kind => written(kind)?,
     };
     let mut registers = ladder.analysis.registers.iter();
-    let register = registers.find(|it| *it.name == *register)?;
+    let register = registers.find(|it| it.name == *number)?;
     let known = register.states.iter().any(|it| it.value == value);
     known.then(|| register.state_name(value))
+}
+
+/// The number that an element writes a constant to, and that constant.
+pub(crate) fn written(kind: &ElementKind) -> Option<(&Name, i64)> {
+    let ElementKind::Assign(assignment) = kind else {
+        return None;
+    };
+    match assignment.value {
+        Value::Constant(value) => Some((&assignment.target.name, value)),
+        _ => None,
+    }
 }
 
 fn in_spec(spec: &Spec, offset: usize) -> Option<Named> {

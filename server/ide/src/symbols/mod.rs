@@ -7,7 +7,7 @@ mod spec;
 
 use source::Span;
 
-pub use ladder::symbols_of_ladder;
+pub use ladder::{names_of_program, symbols_of_ladder};
 pub use matching::rank;
 pub use spec::symbols_of_spec;
 
@@ -41,6 +41,9 @@ pub enum SymbolKind {
     State,
     /// Any other coil.
     Coil,
+    /// A constant that is written to a number, of which nobody asked whether it
+    /// counts steps.
+    Value,
     /// A box: a timer, a counter, a call.
     Box,
     /// A label of jumps.

@@ -39,7 +39,7 @@ mod write;
 pub use layout::{Formatted, format};
 pub(crate) use read::read;
 use statement::{Item, Keyword};
-pub use write::{Lost, Written, draw, write};
+pub use write::{Lost, Written, branches, draw, write};
 
 /// Whether a text that is no XML and no other known form is this one: some
 /// line begins a rung, or the text begins with a declaration that no foreign

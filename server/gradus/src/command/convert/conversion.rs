@@ -11,7 +11,7 @@ use recovery::successions::{Evidence, Succession};
 use source::Diagnostic;
 
 use super::spec_file::SpecFile;
-use ide::legible;
+use ide::{legible, merged_spec};
 
 /// A conversion under way.
 pub struct Conversion<'a> {
@@ -64,7 +64,8 @@ impl<'a> Conversion<'a> {
                 departure.renew(&mut spec);
             }
         }
-        grafcet::rewrite(&self.file.text, &spec)
+        let text = &self.file.text;
+        merged_spec(self.analysis, text, &self.existing, &spec, self.budget)
     }
 
     /// Writes the file. The error says why it was left as it is.

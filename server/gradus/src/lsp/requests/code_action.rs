@@ -5,7 +5,9 @@
 
 use std::sync::Arc;
 
-use ide::{Action, ActionKind, Change, Departing, Effect, actions_in_ladder, actions_in_spec};
+use ide::{
+    Action, ActionKind, Asked, Change, Departing, Effect, actions_in_ladder, actions_in_spec,
+};
 use serde::{Deserialize, Serialize};
 use source::Diagnostic;
 use tower_lsp::ls_types::{
@@ -15,6 +17,7 @@ use tower_lsp::ls_types::{
 
 use super::command::EXPLAIN;
 use crate::lsp::edit::Changes;
+use crate::lsp::publish;
 use crate::lsp::query::{Pair, Query};
 
 /// What an action that was not worked out yet needs to be.
@@ -38,8 +41,8 @@ pub const KINDS: [&str; 8] = [
     "refactor.gradus.reject",
     "refactor.gradus.initial",
     "refactor.gradus.undo",
-    "source.gradus.convert",
-    "source.gradus.explain",
+    "refactor.gradus.convert",
+    "quickfix.gradus.explain",
 ];
 
 fn kind(kind: ActionKind) -> &'static str {
@@ -63,25 +66,25 @@ pub fn answer(
     context: &CodeActionContext,
 ) -> Option<Vec<CodeActionOrCommand>> {
     let span = query.encoding().span(&query.document.rope, range);
-    let findings = query.document.findings(&query.world, &query.budget);
+    let findings = publish::shown(&query.world, &query.document, &query.budget);
     let here = findings
         .into_iter()
         .filter(|finding| finding.span.start <= span.end && span.start <= finding.span.end);
     let here: Vec<Diagnostic> = here.collect();
     let pair = query.pair();
-    let budget = &query.budget;
-    let weakest = query.world.config.suggestions.evidence.into();
-    let actions = match query.spec() {
-        Some(spec) => {
-            let ladder = pair.ladder().map(|it| &**it);
-            actions_in_spec(spec, ladder, span, &here, weakest, budget)
-        }
-        None => {
-            let spec = pair.spec().map(|it| &**it);
-            actions_in_ladder(query.ladder()?, spec, span, &here, weakest, budget)
-        }
+    let asked = Asked {
+        span,
+        findings: &here,
+        weakest: query.world.config.suggestions.evidence.into(),
+        budget: &query.budget,
     };
+    let actions = match query.spec() {
+        Some(spec) => actions_in_spec(spec, pair.ladder().map(|it| &**it), asked),
+        None => actions_in_ladder(query.ladder()?, pair.spec().map(|it| &**it), asked),
+    };
+    let shows_pages = query.world.abilities.pages;
     let wanted = |action: &Action| match &context.only {
+        _ if action.kind == ActionKind::Explain && !shows_pages => false,
         None => true,
         Some(only) => only.iter().any(|it| includes(it, kind(action.kind))),
     };
@@ -111,6 +114,9 @@ fn in_protocol(
         is_preferred: action.preferred.then_some(true),
         ..CodeAction::default()
     };
+    if action.kind == ActionKind::Fix {
+        answered.diagnostics = Some(context.diagnostics.clone());
+    }
     match action.effect {
         Effect::Show(code) => {
             answered.command = Some(Command {
@@ -128,7 +134,6 @@ fn in_protocol(
             let mut changes = Changes::new(fix.title);
             changes.edit(&query.document, fix.edits);
             answered.edit = Some(changes.workspace_edit(&query.world));
-            answered.diagnostics = Some(context.diagnostics.clone());
         }
         Effect::Spec(changes, departing) if query.world.abilities.resolves_edits => {
             let pending = Pending {

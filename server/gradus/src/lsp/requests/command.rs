@@ -167,7 +167,8 @@ pub fn answer(query: &Query, command: &LadderCommand) -> Option<Done> {
             let decisions = decide(&ladder.analysis, &existing.decisions, accept);
             let updated = update(&ladder.analysis, &existing, &decisions, &query.budget);
             let old = pair.spec().map_or("", |it| &*it.text);
-            let new = grafcet::rewrite(old, &updated.spec);
+            let budget = &query.budget;
+            let new = ide::merged_spec(&ladder.analysis, old, &existing, &updated.spec, budget);
             if query.budget.cancel.is_cancelled() {
                 return None;
             }

@@ -1,7 +1,6 @@
 //! `textDocument/documentSymbol` and `workspace/symbol`.
 
 use ide::symbols::{Symbol, SymbolKind as Kind, rank, symbols_of_ladder, symbols_of_spec};
-use logic::Cancel;
 use tower_lsp::ls_types::{
     DocumentSymbol, DocumentSymbolResponse, Location, SymbolInformation, SymbolKind,
     WorkspaceSymbolResponse,
@@ -57,9 +56,13 @@ fn flatten(
 const MOST: usize = 500;
 
 /// The names in all folders that answer what was typed, best first; `None` once
-/// nobody waits any more.
-pub fn in_folders(world: &World, typed: &str, cancel: &Cancel) -> Option<WorkspaceSymbolResponse> {
-    let all = world.index.all(world, cancel)?;
+/// the answer is not `wanted` any more.
+pub fn in_folders(
+    world: &World,
+    typed: &str,
+    wanted: &dyn Fn() -> bool,
+) -> Option<WorkspaceSymbolResponse> {
+    let all = world.index.all(world, wanted)?;
     let typed = typed.trim();
     let entries = all.iter().flat_map(|file| {
         let entries = file.entries.iter();
@@ -113,6 +116,7 @@ fn kind(kind: Kind) -> SymbolKind {
         Kind::Routine => SymbolKind::FUNCTION,
         Kind::Rung => SymbolKind::OPERATOR,
         Kind::State => SymbolKind::ENUM_MEMBER,
+        Kind::Value => SymbolKind::CONSTANT,
         Kind::Coil => SymbolKind::VARIABLE,
         Kind::Box => SymbolKind::OBJECT,
         Kind::Label => SymbolKind::KEY,

@@ -5,38 +5,151 @@
 //! └──[ ls2 ]────[/as]──┘          └──[/as]──┘
 //! ```
 
-use petgraph::graph::NodeIndex;
-use unicode_width::UnicodeWidthStr;
+use std::borrow::Cow;
 
-use super::cuts::TooTangled;
+use unicode_width::{UnicodeWidthChar, UnicodeWidthStr};
+
 use super::legs::{Driven, Leg, legs};
 use super::output::output;
 use super::part::{self, Kind, Part};
-use crate::{CoilKind, ContactKind, Element, ElementKind, Network};
+use crate::{CoilKind, ContactKind, ElementKind, Network};
 
-/// Wider or higher rungs are not drawn: nobody could take them in.
-const WIDEST: usize = 400;
+/// Higher rungs are not drawn: nobody could take them in.
 const HIGHEST: usize = 60;
 
-/// The rung as lines of characters without line ends at the end; `None` if it
-/// is empty, or too large or too tangled to be drawn.
-pub fn draw(network: &Network) -> Option<String> {
+/// The rung as lines of characters, none wider than `width` columns, without a
+/// line end at the end; `None` if it is empty, or too large or too tangled to be
+/// drawn. What is wider goes on below, as on paper: `─→` leaves a line, `→─`
+/// takes it up. Long names and boxes are cut.
+///
+/// ```text
+/// ──[ Start ]────[/Stop]───→
+/// →───[ Ready ]────( Run )
+/// ```
+pub fn draw(network: &Network, width: usize) -> Option<String> {
     if network.is_empty() {
         return None;
     }
-    let legs: Result<Vec<Leg>, TooTangled> = legs(network);
-    let legs = legs.ok()?;
-    let element = |at: NodeIndex| network.element(at);
-    let picture = leg(legs.first()?, &legs, &element)?;
-    let fits = picture.width <= WIDEST && picture.lines.len() <= HIGHEST;
+    let legs = legs(network).ok()?;
+    let drawing = Drawing::of(&legs, network, width)?;
+    let picture = drawing.leg(0, width)?;
+    let fits = picture.width <= width && picture.lines.len() <= HIGHEST;
     fits.then(|| {
         let lines = picture.lines.iter().map(|line| line.trim_end());
         lines.collect::<Vec<_>>().join("\n")
     })
 }
 
+/// The legs of a rung, of which each is sketched.
+struct Drawing<'n> {
+    network: &'n Network,
+    legs: &'n [Leg],
+    sketches: Vec<Sketch>,
+    /// Of the whole drawing.
+    width: usize,
+}
+
+/// A leg before it is laid out in lines.
+struct Sketch {
+    /// What power goes through, one after the other. A line can be broken
+    /// between them, where one wire alone goes on.
+    pieces: Vec<Picture>,
+    /// How wide the leg is with all that it drives, in one line.
+    width: usize,
+}
+
+/// What leaves a line that goes on below, and what takes it up there.
+const ONWARD: &str = "─→";
+const TAKEN_UP: &str = "→─";
+const ARROW: usize = 2;
+
+impl<'n> Drawing<'n> {
+    fn of(legs: &'n [Leg], network: &'n Network, width: usize) -> Option<Self> {
+        let mut sketches: Vec<Sketch> = Vec::with_capacity(legs.len());
+        // A leg has a smaller number than those that it drives.
+        for leg in legs.iter().rev() {
+            let pieces = match &leg.condition.kind {
+                Kind::And(parts) if parts.is_empty() => vec![Picture::of("──".to_owned())],
+                Kind::And(parts) => {
+                    let all = parts.iter().map(|it| condition(it, network, width));
+                    all.collect::<Option<Vec<_>>>()?
+                }
+                _ => vec![condition(&leg.condition, network, width)?],
+            };
+            let driven = leg.drives.iter().map(|it| match it {
+                Driven::Output(at) => drawn_output(&network.element(*at).kind, width).width,
+                Driven::Leg(inner) => {
+                    let behind = legs.len().checked_sub(inner + 1);
+                    let sketch = behind.and_then(|behind| sketches.get(behind));
+                    sketch.map_or(usize::MAX, |it| it.width)
+                }
+            });
+            let driven = driven.max().unwrap_or_default();
+            let connection = usize::from(leg.drives.len() > 1);
+            let condition: usize = pieces.iter().map(|it| it.width).sum();
+            sketches.push(Sketch {
+                pieces,
+                width: condition.saturating_add(driven).saturating_add(connection),
+            });
+        }
+        sketches.reverse();
+        Some(Self {
+            network,
+            legs,
+            sketches,
+            width,
+        })
+    }
+
+    /// A leg with all that it drives, in lines of at most `width` where that is
+    /// possible.
+    fn leg(&self, at: usize, width: usize) -> Option<Picture> {
+        let (leg, sketch) = (self.legs.get(at)?, self.sketches.get(at)?);
+        let condition: usize = sketch.pieces.iter().map(|it| it.width).sum();
+        let mut bands = Vec::new();
+        let mut band = Picture::wire();
+        for piece in &sketch.pieces {
+            // More follows for sure, if only what is driven.
+            if band.width > ARROW && band.width + piece.width + ARROW > width {
+                bands.push(series(band, Picture::of(ONWARD.to_owned())));
+                band = Picture::of(TAKEN_UP.to_owned());
+            }
+            band = series(band, piece.clone());
+        }
+        let driven = sketch.width.saturating_sub(condition);
+        if band.width > ARROW && band.width.saturating_add(driven) > width {
+            bands.push(series(band, Picture::of(ONWARD.to_owned())));
+            band = Picture::of(TAKEN_UP.to_owned());
+        }
+        let rest = width.checked_sub(band.width)?;
+        let driven = self.drives(leg, rest)?;
+        bands.push(series(band, driven));
+        Some(stack(bands))
+    }
+
+    /// What a leg drives, in lines of at most `width` where that is possible.
+    fn drives(&self, leg: &Leg, width: usize) -> Option<Picture> {
+        let connection = usize::from(leg.drives.len() > 1);
+        let width = width.checked_sub(connection)?;
+        let mut driven = Vec::with_capacity(leg.drives.len());
+        for drive in &leg.drives {
+            driven.push(match drive {
+                Driven::Output(at) => drawn_output(&self.network.element(*at).kind, self.width),
+                // An inner leg has a greater number, so this comes to an end.
+                Driven::Leg(inner) => self.leg(*inner, width)?,
+            });
+        }
+        match driven.len() {
+            0 => Some(Picture::wire()),
+            1 => driven.pop(),
+            _ => Some(parallel(driven, Joined::No)),
+        }
+    }
+}
+
 /// A part of a rung. Power comes in at the left of the first line, and goes on
 /// at its right. All lines are equally wide.
+#[derive(Clone)]
 struct Picture {
     lines: Vec<String>,
     width: usize,
@@ -81,6 +194,19 @@ fn series(first: Picture, then: Picture) -> Picture {
     }
 }
 
+/// Lines of one drawing that go on below each other.
+fn stack(bands: Vec<Picture>) -> Picture {
+    let width = bands.iter().map(|it| it.width).max().unwrap_or_default();
+    let filled = bands.into_iter().flat_map(|band| {
+        let fill = blank(width - band.width);
+        band.lines.into_iter().map(move |line| line + &fill)
+    });
+    Picture {
+        lines: filled.collect(),
+        width,
+    }
+}
+
 /// One above the other. Power comes in to all; where they are `joined` it goes
 /// on from all.
 fn parallel(legs: Vec<Picture>, joined: Joined) -> Picture {
@@ -121,79 +247,61 @@ enum Joined {
     No,
 }
 
-/// A leg with all that it drives.
-fn leg<'n>(it: &Leg, legs: &[Leg], element: &impl Fn(NodeIndex) -> &'n Element) -> Option<Picture> {
-    let condition = match it.condition.is_always() {
-        true => Picture::of("──".to_owned()),
-        false => condition(&it.condition, element)?,
-    };
-    let mut driven = Vec::with_capacity(it.drives.len());
-    for drive in &it.drives {
-        driven.push(match drive {
-            Driven::Output(at) => Picture::of(format!("──{}", spelled(&element(*at).kind))),
-            // An inner leg has a greater number, so this comes to an end.
-            Driven::Leg(inner) => leg(legs.get(*inner)?, legs, element)?,
-        });
-    }
-    Some(match driven.len() {
-        0 => condition,
-        1 => series(condition, driven.pop()?),
-        _ => series(condition, parallel(driven, Joined::No)),
-    })
-}
-
-/// A condition. Nests as deep as its part does, which the writer bounds.
-fn condition<'n>(part: &Part, element: &impl Fn(NodeIndex) -> &'n Element) -> Option<Picture> {
+/// A condition, if it is not wider than `width`. Nests as deep as its part does,
+/// which the writer bounds.
+fn condition(part: &Part, network: &Network, width: usize) -> Option<Picture> {
     match &part.kind {
         Kind::And(parts) => {
             let mut all = Picture::wire();
             for part in parts {
-                all = series(all, condition(part, element)?);
-                if all.width > WIDEST {
+                all = series(all, condition(part, network, width)?);
+                if all.width > width {
                     return None;
                 }
             }
             Some(all)
         }
         Kind::Or(parts) if !parts.is_empty() => {
-            let legs: Option<Vec<Picture>> =
-                parts.iter().map(|part| condition(part, element)).collect();
+            let legs: Option<Vec<Picture>> = parts
+                .iter()
+                .map(|part| condition(part, network, width))
+                .collect();
             let legs = legs?;
             let height: usize = legs.iter().map(|leg| leg.lines.len()).sum();
             (height <= HIGHEST).then(|| parallel(legs, Joined::Yes))
         }
-        Kind::Element(at) => Some(contact(&element(*at).kind, part, element)),
-        _ => Some(Picture::of(format!(
-            "──[ {} ]──",
-            part::text(part, element)
-        ))),
+        Kind::Element(at) => Some(contact(&network.element(*at).kind, part, network, width)),
+        _ => Some(Picture::of(format!("──{}──", boxed(part, network, width)))),
     }
 }
 
-fn contact<'n>(
-    kind: &ElementKind,
-    part: &Part,
-    element: &impl Fn(NodeIndex) -> &'n Element,
-) -> Picture {
-    Picture::of(match kind {
+fn contact(kind: &ElementKind, part: &Part, network: &Network, width: usize) -> Picture {
+    let spelled = match kind {
         ElementKind::Contact(contact) => {
-            let name = &contact.operand.name;
+            let name = cut(&contact.operand.name, width);
             match contact.kind {
-                ContactKind::Open => format!("──[ {name} ]──"),
-                ContactKind::Closed => format!("──[/{name}]──"),
-                ContactKind::Rising => format!("──[P {name}]──"),
-                ContactKind::Falling => format!("──[N {name}]──"),
+                ContactKind::Open => format!("[ {name} ]"),
+                ContactKind::Closed => format!("[/{name}]"),
+                ContactKind::Rising => format!("[P {name}]"),
+                ContactKind::Falling => format!("[N {name}]"),
             }
         }
-        _ => format!("──[ {} ]──", part::text(part, element)),
-    })
+        _ => boxed(part, network, width),
+    };
+    Picture::of(format!("──{spelled}──"))
+}
+
+/// A condition that is no contact.
+fn boxed(part: &Part, network: &Network, width: usize) -> String {
+    let text = part::text(part, &|at| network.element(at));
+    format!("[ {} ]", cut(&text, width))
 }
 
 /// An output as it is drawn.
-fn spelled(kind: &ElementKind) -> String {
-    match kind {
+fn drawn_output(kind: &ElementKind, width: usize) -> Picture {
+    let spelled = match kind {
         ElementKind::Coil(coil) => {
-            let name = &coil.operand.name;
+            let name = cut(&coil.operand.name, width);
             match coil.kind {
                 CoilKind::Plain => format!("( {name} )"),
                 CoilKind::Negated => format!("(/{name})"),
@@ -203,20 +311,114 @@ fn spelled(kind: &ElementKind) -> String {
                 CoilKind::Falling => format!("(N {name})"),
             }
         }
-        kind => format!("[ {} ]", output(kind).0),
+        kind => format!("[ {} ]", cut(&output(kind).0, width)),
+    };
+    Picture::of(format!("──{spelled}"))
+}
+
+/// What stands in one element of a drawing of that width: the source holds all
+/// of it.
+fn cut(text: &str, width: usize) -> Cow<'_, str> {
+    let most = width / 2;
+    if text.width() <= most {
+        return text.into();
     }
+    let mut kept = String::new();
+    for sign in text.chars() {
+        if kept.width() + sign.width().unwrap_or_default() >= most {
+            break;
+        }
+        kept.push(sign);
+    }
+    (kept + "…").into()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    fn drawn(rung: &str, width: usize) -> Option<String> {
+        let program = crate::read(rung.as_bytes()).program;
+        draw(&program.routines[0].rungs[0].network, width)
+    }
+
+    #[track_caller]
+    fn check_within(width: usize, rung: &str, wanted: &[&str]) {
+        let drawn = drawn(rung, width).expect("a drawing");
+        assert_eq!(drawn.lines().collect::<Vec<_>>(), wanted, "\n{drawn}");
+    }
+
     #[track_caller]
     fn check(rung: &str, wanted: &[&str]) {
-        let program = crate::read(rung.as_bytes()).program;
-        let network = &program.routines[0].rungs[0].network;
-        let drawn = draw(network).expect("a drawing");
-        assert_eq!(drawn.lines().collect::<Vec<_>>(), wanted, "\n{drawn}");
+        check_within(76, rung, wanted);
+    }
+
+    #[test]
+    fn what_is_too_wide_goes_on_below() {
+        let rung = "rung: (a + b) * /c * d * (e + f) -> x";
+        check(
+            rung,
+            &[
+                "┬──[ a ]──┬──[/c]────[ d ]──┬──[ e ]──┬──( x )",
+                "└──[ b ]──┘                 └──[ f ]──┘",
+            ],
+        );
+        check_within(
+            30,
+            rung,
+            &[
+                "┬──[ a ]──┬──[/c]────[ d ]───→",
+                "└──[ b ]──┘",
+                "→─┬──[ e ]──┬──( x )",
+                "  └──[ f ]──┘",
+            ],
+        );
+        check_within(
+            18,
+            rung,
+            &[
+                "┬──[ a ]──┬─→",
+                "└──[ b ]──┘",
+                "→───[/c]───→",
+                "→───[ d ]───→",
+                "→─┬──[ e ]──┬─→",
+                "  └──[ f ]──┘",
+                "→───( x )",
+            ],
+        );
+    }
+
+    #[test]
+    fn what_is_driven_goes_on_below_too() {
+        check_within(
+            26,
+            "rung: a * b -> set x, (c * d -> /y), TON(t1, 5s)",
+            &[
+                "──[ a ]────[ b ]───→",
+                "→─┬──(S x)",
+                "  ├──[ c ]────[ d ]───→",
+                "  │→───(/y)",
+                "  └──[ TON(t1, 5s) ]",
+            ],
+        );
+    }
+
+    #[test]
+    fn long_words_are_cut() {
+        check_within(
+            30,
+            "rung: a -> set a_name_of_many_letters, TON(timer, 5s)",
+            &[
+                "──[ a ]───→",
+                "→─┬──(S a_name_of_many…)",
+                "  └──[ TON(timer, 5s) ]",
+            ],
+        );
+    }
+
+    #[test]
+    fn what_cannot_be_broken_is_not_drawn() {
+        assert_eq!(drawn("rung: (a * b * c + d) -> x", 20), None);
     }
 
     #[test]

@@ -5,6 +5,7 @@
 //! line. Reading it gives the conditions of every output back. What the
 //! notation has no words for is listed, never left out in silence.
 
+mod branches;
 mod cuts;
 mod draw;
 mod legs;
@@ -18,6 +19,7 @@ use source::Span;
 
 use super::layout::format;
 use crate::{Class, Declaration, ElementKind, Network, Program, Role, Routine, Rung};
+pub use branches::branches;
 use cuts::{DEEPEST, TooTangled};
 pub use draw::draw;
 use legs::{Driven, Leg, legs};
