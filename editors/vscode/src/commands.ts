@@ -29,7 +29,7 @@ export function registerCommands(
   showLog: () => void,
 ): Disposable[] {
   const onLadder = (run: FileCommand) => async () => {
-    const ladder = verdicts.ladderOf(window.activeTextEditor?.document);
+    const ladder = verdicts.ladderInFront();
     if (ladder === undefined) {
       window.setStatusBarMessage("Gradus: the file in front holds no ladder", 5000);
       return;

@@ -18,7 +18,7 @@ export function activate(context: ExtensionContext): void {
 
   const lookAtFront = () => {
     verdicts.show();
-    const has = verdicts.ladderOf(window.activeTextEditor?.document) !== undefined;
+    const has = verdicts.ladderInFront() !== undefined;
     void commands.executeCommand("setContext", "gradus.hasLadder", has);
   };
   const running = new Server(
@@ -36,7 +36,7 @@ export function activate(context: ExtensionContext): void {
   server = running;
 
   const startFor = (documents: readonly Parameters<typeof concernsGradus>[0][]) => {
-    if (!running.isWanted && documents.some((document) => onDisk(document.uri.scheme) && concernsGradus(document))) {
+    if (!running.wasWanted && documents.some((document) => onDisk(document.uri.scheme) && concernsGradus(document))) {
       void running.running();
     }
   };
@@ -56,7 +56,7 @@ export function activate(context: ExtensionContext): void {
       const program = ["gradus.server.path", "gradus.server.extraEnv"].some((name) =>
         change.affectsConfiguration(name),
       );
-      if (program && running.isWanted) void running.restart();
+      if (program && running.wasWanted) void running.restart();
     }),
   );
   startFor(workspace.textDocuments);

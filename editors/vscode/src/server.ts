@@ -1,10 +1,13 @@
 /**
  * The language server as the editor sees it: started for the first document that concerns
  * it, restarted on demand or after a crash, and silent but for one message when it gives up.
+ * Restarts after a crash are this module's, not the client library's, which would announce
+ * each that fails.
  */
 import {
   commands,
   type ExtensionContext,
+  env,
   type LogOutputChannel,
   TabInputText,
   Uri,
@@ -23,19 +26,30 @@ import {
   type LanguageClientOptions,
   type Message,
   RevealOutputChannelOn,
-  type State,
+  State,
 } from "vscode-languageclient/node";
 import { findExecutable } from "./executable";
 import { ownLanguages, xmlLanguages } from "./ladder-file";
 import { furtherCapabilities } from "./protocol";
 import { pageOf } from "./virtual-documents";
 
-/** How often a crashed server is started anew within three minutes. */
+/** How often a server that has died is started anew within so many milliseconds. */
 const restarts = 4;
+const lately = 3 * 60 * 1000;
+
+/** A client whose faults go to the log. What users are told of them, and once, is said here. */
+class QuietClient extends LanguageClient {
+  override error(message: string, data?: unknown): void {
+    super.error(message, data, false);
+  }
+}
 
 export class Server {
   #client: LanguageClient | undefined;
   #starting: Promise<LanguageClient | undefined> | undefined;
+  #wasWanted = false;
+  /** When servers have died lately. */
+  #deaths: number[] = [];
 
   constructor(
     private readonly context: ExtensionContext,
@@ -46,6 +60,7 @@ export class Server {
 
   /** The running client, started if need be; undefined if it cannot be started, which the user has been told. */
   running(): Promise<LanguageClient | undefined> {
+    this.#wasWanted = true;
     this.#starting ??= this.#start().then((client) => {
       // A failed start is tried again when it is asked for again.
       if (client === undefined) this.#starting = undefined;
@@ -54,12 +69,14 @@ export class Server {
     return this.#starting;
   }
 
-  get isWanted(): boolean {
-    return this.#starting !== undefined;
+  /** Whether it was asked for, even if it could not be started. */
+  get wasWanted(): boolean {
+    return this.#wasWanted;
   }
 
   async restart(): Promise<void> {
     await this.stop();
+    this.#deaths = [];
     await this.running();
   }
 
@@ -85,7 +102,7 @@ export class Server {
     }
     this.log.info(`Language server: ${executable.path} (from the ${executable.from})`);
 
-    const client = new LanguageClient(
+    const client = new QuietClient(
       "gradus",
       "Gradus",
       {
@@ -103,8 +120,12 @@ export class Server {
       await client.start();
       return client;
     } catch (error) {
-      this.log.error(`The language server did not start: ${error}`);
-      void this.#tell("The Gradus language server did not start.", "Show the Log");
+      // Who has stopped it meanwhile wants to hear nothing of it.
+      if (this.#client !== client) return undefined;
+      this.#client = undefined;
+      this.log.error(`${executable.path} did not start as a language server: ${error}`);
+      const choices = executable.from === "setting" ? (["Open the Setting"] as const) : [];
+      void this.#tell("The Gradus language server did not start.", ...choices, "Restart", "Show the Log");
       return undefined;
     }
   }
@@ -142,7 +163,7 @@ export class Server {
   #errorHandler(): ErrorHandler {
     let usual: ErrorHandler | undefined;
     const handler = () => {
-      usual ??= this.#client?.createDefaultErrorHandler(restarts);
+      usual ??= this.#client?.createDefaultErrorHandler();
       return usual;
     };
     return {
@@ -155,26 +176,36 @@ export class Server {
         return (await handler()?.error(error, message, count)) ?? { action: ErrorAction.Continue };
       },
       closed: async (): Promise<CloseHandlerResult> => {
-        const result = (await handler()?.closed()) ?? { action: CloseAction.DoNotRestart };
-        if (result.action === CloseAction.Restart) {
-          this.log.warn("The language server ended without being asked to; it is started again.");
-          return { ...result, handled: true };
-        }
-        this.log.error(`The language server ended more than ${restarts} times within three minutes.`);
-        void this.#tell(
-          "The Gradus language server keeps ending. Nothing of your files is lost.",
-          "Restart",
-          "Show the Log",
-        );
-        return { ...result, handled: true };
+        // Of one that ends before it has answered, its start tells.
+        if (this.#client?.state === State.Running) this.#died();
+        return { action: CloseAction.DoNotRestart, handled: true };
       },
     };
+  }
+
+  /** A server that worked is gone, and nobody asked for it. */
+  #died(): void {
+    this.#client = undefined;
+    this.#starting = undefined;
+    const now = Date.now();
+    this.#deaths = [...this.#deaths.filter((death) => now - death < lately), now];
+    if (this.#deaths.length <= restarts) {
+      this.log.warn("The language server ended without being asked to; it is started again.");
+      void this.running();
+      return;
+    }
+    this.log.error(`The language server ended more than ${restarts} times within three minutes.`);
+    void this.#tell(
+      "The Gradus language server keeps ending. Nothing of your files is lost.",
+      "Restart",
+      "Show the Log",
+    );
   }
 
   async #tell(message: string, ...choices: ("Open the Setting" | "Show the Log" | "Restart")[]): Promise<void> {
     switch (await window.showErrorMessage(message, ...choices)) {
       case "Open the Setting":
-        await commands.executeCommand("workbench.action.openSettings", "gradus.server.path");
+        await showSetting("server.path");
         break;
       case "Show the Log":
         this.log.show();
@@ -201,6 +232,15 @@ export async function showBeside(uri: Uri, takeFocus: boolean): Promise<void> {
     .flatMap((group) => group.tabs)
     .filter((tab) => !tab.isActive && tab.input instanceof TabInputText && tab.input.uri.toString() === uri.toString());
   await window.tabGroups.close(behind, true);
+}
+
+/** Shows one of our settings where it is set, or would be: each of these lists shows its own settings only. */
+async function showSetting(name: string): Promise<void> {
+  const set = workspace.getConfiguration("gradus").inspect(name);
+  const inFolder = set?.workspaceFolderValue !== undefined || set?.workspaceValue !== undefined;
+  const elsewhere = env.remoteName === undefined ? "openSettings" : "openRemoteSettings";
+  const list = inFolder ? "openWorkspaceSettings" : elsewhere;
+  await commands.executeCommand(`workbench.action.${list}`, { query: `gradus.${name}` });
 }
 
 /** Shows a page of Markdown beside the active document, rendered where the editor can. */

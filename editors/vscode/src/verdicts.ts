@@ -2,7 +2,7 @@
  * The status item: what the last analysis says of the ladder in front and of its spec.
  * A ladder and the spec beside it share their path but for the ending, so either shows it.
  */
-import { MarkdownString, StatusBarAlignment, type TextDocument, Uri, window } from "vscode";
+import { MarkdownString, StatusBarAlignment, type TextDocument, Uri, window, workspace } from "vscode";
 import { State } from "vscode-languageclient/node";
 import { concernsGradus, holdsLadder, specLanguage } from "./ladder-file";
 import type { Status, Verdict } from "./protocol";
@@ -18,6 +18,7 @@ export class Verdicts {
   readonly #item = window.createStatusBarItem("gradus.verdict", StatusBarAlignment.Right, 90);
   readonly #ofStem = new Map<string, Status>();
   #state = State.Stopped;
+  #last: Uri | undefined;
 
   constructor() {
     this.#item.name = "Gradus";
@@ -45,6 +46,20 @@ export class Verdicts {
     if (document.languageId !== specLanguage) return undefined;
     const status = this.#ofStem.get(stem(document.uri));
     return status && Uri.parse(status.uri, true);
+  }
+
+  /**
+   * The ladder of the document in front. Where no text is in front, as in the walkthrough,
+   * it is that of the text that was there last.
+   */
+  ladderInFront(): Uri | undefined {
+    const document = window.activeTextEditor?.document;
+    if (document !== undefined) {
+      this.#last = this.ladderOf(document);
+      return this.#last;
+    }
+    const last = this.#last?.toString();
+    return workspace.textDocuments.find((open) => open.uri.toString() === last)?.uri;
   }
 
   /** Whether a file is the spec of a ladder that is in view. */

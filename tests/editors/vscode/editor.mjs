@@ -253,6 +253,71 @@ export class Editor {
     await sideBar.waitFor();
   }
 
+  #telling(words) {
+    return this.page.locator(".notification-toast", { hasText: words });
+  }
+
+  /** Waits until a message says something. */
+  async told(words) {
+    await this.#telling(words).first().waitFor();
+  }
+
+  /** How many messages say something now. */
+  async tellings(words) {
+    return this.#telling(words).count();
+  }
+
+  /** Presses a button of a message. */
+  async answer(words, button) {
+    const shown = this.#telling(words).first();
+    await shown.hover();
+    await shown.locator(".monaco-button", { hasText: button }).click();
+    await shown.waitFor({ state: "hidden" });
+  }
+
+  async clearMessages() {
+    await this.run("Notifications: Clear All Notifications");
+  }
+
+  /** Waits until the settings editor shows a setting. */
+  async showsSetting(name) {
+    await this.page.locator(`.settings-editor [data-key="${name}"]`).first().waitFor();
+  }
+
+  /** Waits until the panel of outputs shows a log. Its text is none of ours: this VS Code has no module that writes logs. */
+  async logIsOpen(name) {
+    await this.page.locator(".part.panel select option:checked", { hasText: name }).first().waitFor({ state: "attached" });
+  }
+
+  /** Runs a command that asks with a list, and takes an entry of that. */
+  async runAndPick(command, entry) {
+    await this.#quickInput(`run ${command}`, "F1", `>${command}`);
+    const rows = this.page.locator(".quick-input-list .monaco-list-row");
+    await rows.filter({ hasText: entry }).waitFor();
+    await this.page.locator(".quick-input-widget input.input").fill(entry);
+    await rows.and(this.page.locator(".focused")).filter({ hasText: entry }).waitFor();
+    await this.keys.press("Enter");
+  }
+
+  /** A step of the walkthrough that is open. */
+  step(title) {
+    return this.page.locator(".gettingStartedContainer .getting-started-step", { hasText: title }).first();
+  }
+
+  /** Presses a button of the walkthrough. */
+  async press(button) {
+    await this.page.locator(".gettingStartedContainer .monaco-button", { hasText: button }).first().click();
+  }
+
+  /** Answers the question for the place of a file. */
+  async saveAs(path) {
+    const input = this.page.locator(".quick-input-widget input.input");
+    await input.waitFor();
+    await input.fill(path);
+    await this.keys.press("Enter");
+    await input.waitFor({ state: "hidden" });
+  }
+
   async picture(name) {
     await this.page.screenshot({ path: join(artefacts, `vscode-${name}.png`) });
   }

@@ -26,6 +26,7 @@ const userSettings = {
   "extensions.ignoreRecommendations": true,
   "files.autoSave": "off",
   "git.enabled": false,
+  "security.workspace.trust.startupPrompt": "never",
   "telemetry.telemetryLevel": "off",
   "update.mode": "none",
   "window.menuBarVisibility": "classic",
@@ -36,10 +37,11 @@ const userSettings = {
 };
 
 /**
- * Starts a workbench on a new, empty folder with the extension of that .vsix.
+ * Starts a workbench on a new, empty folder with the extension of that .vsix. A folder
+ * that is not `trusted` is one that nobody was asked about.
  * `stop` ends everything that was started and removes what was written.
  */
-export async function startWorkbench(vsix) {
+export async function startWorkbench(vsix, { trusted = true } = {}) {
   const scratch = mkdtempSync(join(tmpdir(), "gradus-vscode-"));
   const folder = join(scratch, "workspace");
   const [data, user, extensions] = ["server", "user", "extensions"].map((name) => join(scratch, name));
@@ -58,7 +60,7 @@ export async function startWorkbench(vsix) {
     LANG: "C.UTF-8",
     EXTENSIONS_GALLERY: "{}",
   };
-  const log = createWriteStream(join(artefacts, "vscode.log"));
+  const log = createWriteStream(join(artefacts, trusted ? "vscode.log" : "vscode-untrusted.log"));
   const running = [];
   let browser;
   const stop = async () => {
@@ -70,7 +72,7 @@ export async function startWorkbench(vsix) {
     await install(vsix, places, env);
     const port = await freePort();
     const options = ["--without-connection-token", "--host", "127.0.0.1", "--port", String(port)];
-    const quiet = ["--telemetry-level", "off", "--disable-telemetry", "--disable-workspace-trust"];
+    const quiet = ["--telemetry-level", "off", "--disable-telemetry", ...(trusted ? ["--disable-workspace-trust"] : [])];
     // A process group of its own, so that the extension host ends with it.
     const server = spawn(node, [serverMain, ...places, ...options, ...quiet], {
       env,
