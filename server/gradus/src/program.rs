@@ -12,9 +12,8 @@ use std::sync::Arc;
 use ladder::{Format, Program};
 use logic::{Budget, Name};
 use recovery::Analysis;
-use source::Severity;
+use source::{Diagnostic, Severity};
 
-use crate::colour::Paint;
 use crate::input::{self, numbered};
 use crate::io::Io;
 use crate::progress::Progress;
@@ -52,12 +51,8 @@ impl Ladder {
 /// why, and the command ends with [`Status::Usage`].
 pub fn read(path: &Path, io: &mut Io) -> std::io::Result<Option<Ladder>> {
     let paint = io.aside_paint();
-    let bytes = match io.read(path) {
-        Ok(bytes) => bytes,
-        Err(reason) => {
-            io.aside(&report::unreadable(path, &reason.diagnostic(), paint))?;
-            return Ok(None);
-        }
+    let Some(bytes) = bytes(path, io)? else {
+        return Ok(None);
     };
     let name = printable(&input::name(path));
     let other = match language::of(&bytes) {
@@ -77,11 +72,7 @@ pub fn read(path: &Path, io: &mut Io) -> std::io::Result<Option<Ladder>> {
         io.aside(&report::text(&findings, paint))?;
         return Ok(None);
     }
-    let is_error = |found: &&source::Diagnostic| found.severity == Severity::Error;
-    let errors = reading.diagnostics.iter().filter(is_error).count();
-    if errors > 0 {
-        io.aside(&trouble(&name, errors, paint))?;
-    }
+    let errors = tell_errors(&name, &reading.diagnostics, io)?;
     Ok(Some(Ladder {
         path: path.to_owned(),
         program: reading.program,
@@ -89,10 +80,32 @@ pub fn read(path: &Path, io: &mut Io) -> std::io::Result<Option<Ladder>> {
     }))
 }
 
-fn trouble(name: &str, errors: usize, paint: Paint) -> String {
-    let word = paint.severity(Severity::Warning, "warning");
-    let errors = numbered(errors, "error");
-    format!("{word}: {name}: {errors} in the text; `gradus check` shows them\n")
+/// The bytes of the file at `path`. `None` if they cannot be had; the user has
+/// been told why.
+pub fn bytes(path: &Path, io: &mut Io) -> std::io::Result<Option<Vec<u8>>> {
+    match io.read(path) {
+        Ok(bytes) => Ok(Some(bytes)),
+        Err(reason) => {
+            let paint = io.aside_paint();
+            io.aside(&report::unreadable(path, &reason.diagnostic(), paint))?;
+            Ok(None)
+        }
+    }
+}
+
+/// Tells how many errors there are in the text of the file called `name`,
+/// which is answered about all the same, and gives their number.
+pub fn tell_errors(name: &str, found: &[Diagnostic], io: &mut Io) -> std::io::Result<usize> {
+    let errors = found.iter().filter(|it| it.severity == Severity::Error);
+    let errors = errors.count();
+    if errors > 0 {
+        let word = io.aside_paint().severity(Severity::Warning, "warning");
+        let errors = numbered(errors, "error");
+        io.aside(&format!(
+            "{word}: {name}: {errors} in the text; `gradus check` shows them\n"
+        ))?;
+    }
+    Ok(errors)
 }
 
 /// All that is recovered from `ladder`; `None` if somebody pressed Ctrl-C.

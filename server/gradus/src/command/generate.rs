@@ -6,12 +6,12 @@ use std::path::{Path, PathBuf};
 use clap::ValueEnum;
 use grafcet::Grafcet;
 use ladder::Format;
-use source::{Diagnostic, Severity};
 
 use crate::file;
-use crate::input::{self, numbered};
+use crate::input;
 use crate::io::{Io, is_standard_input};
-use crate::report::{self, printable};
+use crate::program;
+use crate::report::printable;
 use crate::status::Status;
 use ide::language;
 
@@ -102,13 +102,8 @@ pub fn run(args: &Args, io: &mut Io) -> std::io::Result<Status> {
 /// something of it. `None` if there is none; the user has been told why.
 fn read(path: &Path, io: &mut Io) -> std::io::Result<Option<(Grafcet, Status)>> {
     let name = printable(&input::name(path));
-    let bytes = match io.read(path) {
-        Ok(bytes) => bytes,
-        Err(reason) => {
-            let paint = io.aside_paint();
-            io.aside(&report::unreadable(path, &reason.diagnostic(), paint))?;
-            return Ok(None);
-        }
+    let Some(bytes) = program::bytes(path, io)? else {
+        return Ok(None);
     };
     let language::File::Spec(text) = language::of(&bytes) else {
         let why = "this is no spec; `gradus convert` makes one of a ladder";
@@ -116,17 +111,9 @@ fn read(path: &Path, io: &mut Io) -> std::io::Result<Option<(Grafcet, Status)>> 
         return Ok(None);
     };
     let reading = grafcet::read(text);
-    let is_error = |found: &&Diagnostic| found.severity == Severity::Error;
-    let errors = reading.diagnostics.iter().filter(is_error).count();
-    let status = if errors > 0 {
-        let word = io.aside_paint().severity(Severity::Warning, "warning");
-        let errors = numbered(errors, "error");
-        io.aside(&format!(
-            "{word}: {name}: {errors} in the text; `gradus check` shows them\n"
-        ))?;
-        Status::ProblemsFound
-    } else {
-        Status::Done
+    let status = match program::tell_errors(&name, &reading.diagnostics, io)? {
+        0 => Status::Done,
+        _ => Status::ProblemsFound,
     };
     Ok(Some((reading.spec.grafcet, status)))
 }

@@ -11,6 +11,7 @@ use crate::command::generate::source_at;
 use crate::file;
 use crate::input::{self, numbered};
 use crate::io::{Io, is_standard_input};
+use crate::program;
 use crate::report::{self, Findings, printable};
 use crate::status::Status;
 use crate::subject::Plant;
@@ -146,13 +147,8 @@ fn gather(args: &Args, io: &mut Io) -> std::io::Result<Option<(Plant, Source, St
     let mut status = Status::Done;
     for path in args.files.iter().chain(&args.inputs) {
         let name = printable(&input::name(path));
-        let bytes = match io.read(path) {
-            Ok(bytes) => bytes,
-            Err(reason) => {
-                let paint = io.aside_paint();
-                io.aside(&report::unreadable(path, &reason.diagnostic(), paint))?;
-                return Ok(None);
-            }
+        let Some(bytes) = program::bytes(path, io)? else {
+            return Ok(None);
         };
         let next = if args.inputs.as_ref() == Some(path) {
             match trace::read(&bytes) {
@@ -175,7 +171,10 @@ fn gather(args: &Args, io: &mut Io) -> std::io::Result<Option<(Plant, Source, St
             })
         } else {
             match plant.add(path, &bytes) {
-                Ok(found) => status = status.max(errors(&name, &found, io)?),
+                Ok(found) if program::tell_errors(&name, &found, io)? > 0 => {
+                    status = Status::ProblemsFound;
+                }
+                Ok(_) => {}
                 Err(misfit) => {
                     io.complain(&format!("{name}: {}", misfit.sentence()));
                     return Ok(None);
@@ -206,21 +205,6 @@ fn gather(args: &Args, io: &mut Io) -> std::io::Result<Option<(Plant, Source, St
         return Ok(None);
     }
     Ok(Some((plant, source, status)))
-}
-
-/// Tells of errors in the text of a ladder or spec; it runs all the same.
-fn errors(name: &str, found: &[Diagnostic], io: &mut Io) -> std::io::Result<Status> {
-    let errors = found.iter().filter(|it| it.severity == Severity::Error);
-    let errors = errors.count();
-    if errors == 0 {
-        return Ok(Status::Done);
-    }
-    let word = io.aside_paint().severity(Severity::Warning, "warning");
-    let errors = numbered(errors, "error");
-    io.aside(&format!(
-        "{word}: {name}: {errors} in the text; `gradus check` shows them\n"
-    ))?;
-    Ok(Status::ProblemsFound)
 }
 
 /// Whether the scenario can be run. If not, the user has been told why: every
