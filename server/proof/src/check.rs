@@ -1,5 +1,7 @@
 use crate::bounded::{Bounded, Scan};
 use crate::classes::Classes;
+use crate::components::components;
+use crate::cone::joined;
 use crate::correspondence::corresponding;
 use crate::explore::explore;
 use crate::frame::Framing;
@@ -15,7 +17,8 @@ const TURN: u64 = 2_000_000;
 
 /// Whether a property of the netlist can be violated, by all engines together.
 ///
-/// Random runs come first, then the proof of all equalities that induction can
+/// The netlist falls into parts that have nothing to do with each other. In each,
+/// random runs come first, then the proof of all equalities that induction can
 /// give. What is left of the properties is cut down to what they depend on, and
 /// three engines take turns at it: the search for a shortest trace, induction
 /// over more and more scans, and reachability. Whoever is done first decides;
@@ -94,43 +97,41 @@ impl<'n> Checking<'n> {
         if self.is_decided() {
             return Ok(());
         }
-        let mut cone = self.netlist.cone(&self.open());
-        let Some(candidates) = self.turn(self.left / 4, |it, meter| it.sample(&mut cone, meter))?
-        else {
-            return Err(Why::Memory);
-        };
-        if self.trace.is_some() {
-            // Most differences are short; then nothing else has to be known.
-            let mut bounded = Bounded::new(&cone.netlist);
-            self.turn(TURN, |it, meter| it.search(&cone, &mut bounded, meter))?;
-            if self.is_decided() {
-                return Ok(());
-            }
+        let cone = self.netlist.cone(&self.open());
+        let components = components(&cone.netlist);
+        let mut parts = Vec::new();
+        for (at, component) in components.iter().enumerate() {
+            let part = cone
+                .netlist
+                .part(&component.properties, &component.constraints);
+            let part = cone.within(part);
+            // A hard part leaves something for the others.
+            let share = self.left / 2 / (components.len() - at) as u64;
+            parts.push(self.simplify(part, share)?);
         }
-        let framing = Framing::new(&cone.netlist);
-        let classes = self
-            .turn(self.left / 2, |_, meter| {
-                corresponding(&framing, candidates, meter)
-            })?
-            .unwrap_or_else(|| Classes::alone(cone.netlist.size()));
-        for (property, &place) in cone.netlist.properties.iter().zip(&cone.properties) {
-            if classes.leader(property.signal) == Signal::FALSE {
-                self.status[place] = Status::Holds(Proof::Correspondence);
-            }
+        if self.is_decided() {
+            return Ok(());
         }
-        let places = 0..cone.properties.len();
-        let rest: Vec<usize> = places
-            .filter(|&at| self.status[cone.properties[at]] == Status::Open)
+        let cores: Vec<Cone> = parts.iter().map(|part| part.core(&self.status)).collect();
+        let core = joined(&cores);
+        let framings: Vec<Framing<'_>> = parts
+            .iter()
+            .map(|part| Framing::new(&part.cone.netlist))
             .collect();
-        let core = cone.narrowed(cone.netlist.merged_cone(&rest, &classes));
+        let mut inductions: Vec<Induction<'_>> = parts
+            .iter()
+            .zip(&framings)
+            .map(|(part, framing)| Induction::new(framing, &part.classes))
+            .collect();
+        let mut reachable = Reachable::of(&cores);
         let mut bounded = Bounded::new(&core.netlist);
-        let mut induction = Induction::new(&framing, &classes);
-        let mut reachable = Reachable::of(&core);
         let mut steps = TURN;
         while !self.is_decided() {
             let before = self.left;
             self.turn(steps, |it, meter| it.search(&core, &mut bounded, meter))?;
-            self.turn(steps, |it, meter| it.induce(&cone, &mut induction, meter))?;
+            for (part, induction) in parts.iter().zip(&mut inductions) {
+                self.turn(steps, |it, meter| it.induce(&part.cone, induction, meter))?;
+            }
             self.turn(steps, |it, meter| it.enumerate(&mut reachable, meter))?;
             if self.left == before {
                 // Nobody had anything left to try.
@@ -142,12 +143,44 @@ impl<'n> Checking<'n> {
         Ok(())
     }
 
+    /// Random runs of a part and the equalities in it, as far as they can be
+    /// had for so many steps.
+    fn simplify(&mut self, mut cone: Cone, steps: u64) -> Result<Part, Why> {
+        let candidates = match cone.properties.is_empty() {
+            // Nothing is asked of it but that it goes on.
+            true => None,
+            false => self.turn(steps / 4, |it, meter| it.sample(&mut cone, meter))?,
+        };
+        let classes = match candidates {
+            None => None,
+            Some(candidates) => self.turn(steps, |_, meter| {
+                corresponding(&Framing::new(&cone.netlist), candidates, meter)
+            })?,
+        };
+        let classes = classes.unwrap_or_else(|| Classes::alone(cone.netlist.size()));
+        for (property, &place) in cone.netlist.properties.iter().zip(&cone.properties) {
+            if classes.leader(property.signal) == Signal::FALSE {
+                self.status[place] = Status::Holds(Proof::Correspondence);
+            }
+        }
+        Ok(Part { cone, classes })
+    }
+
     /// Random runs, and what they make candidates of.
     fn sample(&mut self, cone: &mut Cone, meter: &mut Meter) -> Result<Classes, Why> {
         let explored = explore(&cone.netlist, meter)?;
         observe(&mut cone.netlist, &explored, meter)?;
         let observed = explore(&cone.netlist, meter)?;
-        self.trace = observed.trace.map(|it| cone.whole(self.netlist, &it));
+        if let Some(trace) = observed.trace {
+            let trace = cone.whole(self.netlist, &trace);
+            let is_shorter = |known: &Trace| trace.scans() < known.scans();
+            // What other parts of the environment forbid does not count.
+            if self.trace.as_ref().is_none_or(is_shorter)
+                && replay(self.netlist, &trace).violation.is_some()
+            {
+                self.trace = Some(trace);
+            }
+        }
         Ok(observed.classes)
     }
 
@@ -181,10 +214,10 @@ impl<'n> Checking<'n> {
         meter: &mut Meter,
     ) -> Result<(), Why> {
         while !self.is_decided() && induction.scans <= self.clean {
-            let places = 0..cone.properties.len();
-            let open: Vec<usize> = places
-                .filter(|&at| self.status[cone.properties[at]] == Status::Open)
-                .collect();
+            let open = open_places(cone, &self.status);
+            if open.is_empty() {
+                return Ok(());
+            }
             let scans = induction.scans;
             for at in induction.advance(&open, meter)? {
                 self.status[cone.properties[at]] = Status::Holds(Proof::Induction(scans));
@@ -255,6 +288,31 @@ impl<'n> Checking<'n> {
     }
 }
 
+/// A part of the netlist, with gates that observe it, and what is equal in it.
+struct Part {
+    cone: Cone,
+    classes: Classes,
+}
+
+impl Part {
+    /// What the open properties of the part depend on, less what is equal.
+    fn core(&self, status: &[Status]) -> Cone {
+        let netlist = &self.cone.netlist;
+        let open = open_places(&self.cone, status);
+        let constraints: Vec<usize> = (0..netlist.constraints.len()).collect();
+        let core = netlist.merged_cone(&open, &constraints, &self.classes);
+        self.cone.within(core)
+    }
+}
+
+/// The properties of a part that are open, by their places in the part.
+fn open_places(cone: &Cone, status: &[Status]) -> Vec<usize> {
+    let places = 0..cone.properties.len();
+    places
+        .filter(|&at| status[cone.properties[at]] == Status::Open)
+        .collect()
+}
+
 /// What each property depends on by itself, fewest latches first: its place,
 /// and whether it is known that it can be violated.
 struct Reachable {
@@ -262,13 +320,13 @@ struct Reachable {
 }
 
 impl Reachable {
-    fn of(core: &Cone) -> Self {
-        let mut cones: Vec<(usize, Netlist, bool)> = core
-            .properties
-            .iter()
-            .enumerate()
-            .map(|(at, &place)| (place, core.netlist.cone(&[at]).netlist, false))
-            .collect();
+    fn of(cores: &[Cone]) -> Self {
+        let mut cones = Vec::new();
+        for core in cores {
+            for (at, &place) in core.properties.iter().enumerate() {
+                cones.push((place, core.netlist.cone(&[at]).netlist, false));
+            }
+        }
         cones.sort_by_key(|(place, netlist, _)| (netlist.latches.len(), *place));
         Self { cones }
     }

@@ -19,8 +19,8 @@ pub struct Cone {
 }
 
 impl Cone {
-    /// A cone of this cone's netlist as one of the whole netlist.
-    pub(crate) fn narrowed(&self, inner: Cone) -> Cone {
+    /// A part of this cone's netlist as one of the whole netlist.
+    pub(crate) fn within(&self, inner: Cone) -> Cone {
         let through = |places: &[usize], inner: &[usize]| -> Vec<usize> {
             inner.iter().map(|&place| places[place]).collect()
         };
@@ -53,6 +53,29 @@ impl Cone {
     }
 }
 
+/// Several parts of a netlist as one of them.
+pub(crate) fn joined(parts: &[Cone]) -> Cone {
+    let mut all = Cone {
+        netlist: Netlist::default(),
+        inputs: Vec::new(),
+        latches: Vec::new(),
+        properties: Vec::new(),
+    };
+    for part in parts {
+        for (input, &place) in part.netlist.inputs.iter().zip(&part.inputs) {
+            let known = all.netlist.inputs.len();
+            all.netlist.input(input.name.clone());
+            if all.netlist.inputs.len() > known {
+                all.inputs.push(place);
+            }
+        }
+        all.netlist.include(&part.netlist, "");
+        all.latches.extend(&part.latches);
+        all.properties.extend(&part.properties);
+    }
+    all
+}
+
 /// How a node is needed: through the classes, or as it is.
 const MERGED: u8 = 1;
 const RAW: u8 = 2;
@@ -62,7 +85,15 @@ impl Netlist {
     /// scans, and all constraints with what they depend on. Outputs that the
     /// part can tell without further gates are kept.
     pub fn cone(&self, properties: &[usize]) -> Cone {
-        self.merged_cone(properties, &Classes::alone(self.size()))
+        let constraints: Vec<usize> = (0..self.constraints.len()).collect();
+        self.part(properties, &constraints)
+    }
+
+    /// The same with the constraints at these places and no others. Fewer
+    /// constraints allow more: what is proved of such a part holds of the
+    /// whole, but a trace may be forbidden there.
+    pub(crate) fn part(&self, properties: &[usize], constraints: &[usize]) -> Cone {
+        self.merged_cone(properties, constraints, &Classes::alone(self.size()))
     }
 
     /// The cone, each signal replaced by the leader of its class.
@@ -71,8 +102,13 @@ impl Netlist {
     /// allow a scan must therefore not be computed by help of the classes, or a
     /// constraint that they know to be always 1 would be gone: the gates of
     /// constraints stay what they are.
-    pub(crate) fn merged_cone(&self, properties: &[usize], classes: &Classes) -> Cone {
-        let needed = self.needed(properties, classes);
+    pub(crate) fn merged_cone(
+        &self,
+        properties: &[usize],
+        constraints: &[usize],
+        classes: &Classes,
+    ) -> Cone {
+        let needed = self.needed(properties, constraints, classes);
         let mut part = Netlist::default();
         let mut cone = Cone {
             netlist: Netlist::default(),
@@ -120,8 +156,8 @@ impl Netlist {
             let latch = &self.latches[at];
             part.set_next(raw[latch.signal.node()], of(&merged, latch.next));
         }
-        for &constraint in &self.constraints {
-            part.constrain(of(&raw, constraint));
+        for &at in constraints {
+            part.constrain(of(&raw, self.constraints[at]));
         }
         for &at in properties {
             let Output { name, signal } = &self.properties[at];
@@ -138,7 +174,7 @@ impl Netlist {
         cone
     }
 
-    fn needed(&self, properties: &[usize], classes: &Classes) -> Vec<u8> {
+    fn needed(&self, properties: &[usize], constraints: &[usize], classes: &Classes) -> Vec<u8> {
         let mut needed = vec![0_u8; self.size()];
         let mut open: Vec<(usize, u8)> = Vec::new();
         open.extend(
@@ -146,7 +182,11 @@ impl Netlist {
                 .iter()
                 .map(|&at| (self.properties[at].signal.node(), MERGED)),
         );
-        open.extend(self.constraints.iter().map(|signal| (signal.node(), RAW)));
+        open.extend(
+            constraints
+                .iter()
+                .map(|&at| (self.constraints[at].node(), RAW)),
+        );
         while let Some((node, way)) = open.pop() {
             if needed[node] & way != 0 {
                 continue;

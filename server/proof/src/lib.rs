@@ -51,6 +51,7 @@ mod bounded;
 mod check;
 mod classes;
 mod compare;
+mod components;
 mod cone;
 mod correspondence;
 mod diagrams;
