@@ -1,5 +1,6 @@
 //! The engines under judges that share nothing with them.
 
+mod abc;
 mod explicit;
 mod plan;
 
