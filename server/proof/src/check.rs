@@ -1,7 +1,7 @@
 use crate::bounded::{Bounded, Scan};
 use crate::classes::Classes;
 use crate::components::components;
-use crate::cone::joined;
+use crate::cone::{Cutter, joined};
 use crate::correspondence::corresponding;
 use crate::explore::explore;
 use crate::frame::Framing;
@@ -100,11 +100,10 @@ impl<'n> Checking<'n> {
         let cone = self.netlist.cone(&self.open());
         let components = components(&cone.netlist);
         let mut parts = Vec::new();
+        let alone = Classes::alone(cone.netlist.size());
+        let mut cutter = Cutter::new(&cone.netlist, &alone);
         for (at, component) in components.iter().enumerate() {
-            let part = cone
-                .netlist
-                .part(&component.properties, &component.constraints);
-            let part = cone.within(part);
+            let part = cone.within(cutter.cut(&component.properties, &component.constraints));
             // A hard part leaves something for the others.
             let share = self.left / 2 / (components.len() - at) as u64;
             parts.push(self.simplify(part, share)?);
@@ -123,7 +122,7 @@ impl<'n> Checking<'n> {
             .zip(&framings)
             .map(|(part, framing)| Induction::new(framing, &part.classes))
             .collect();
-        let mut reachable = Reachable::of(&cores);
+        let mut refuted = vec![false; self.status.len()];
         let mut bounded = Bounded::new(&core.netlist);
         let mut steps = TURN;
         while !self.is_decided() {
@@ -132,7 +131,7 @@ impl<'n> Checking<'n> {
             for (part, induction) in parts.iter().zip(&mut inductions) {
                 self.turn(steps, |it, meter| it.induce(&part.cone, induction, meter))?;
             }
-            self.turn(steps, |it, meter| it.enumerate(&mut reachable, meter))?;
+            self.turn(steps, |it, meter| it.enumerate(&cores, &mut refuted, meter))?;
             if self.left == before {
                 // Nobody had anything left to try.
                 let is_end = bounded.clean >= self.limits.scans;
@@ -226,25 +225,38 @@ impl<'n> Checking<'n> {
         Ok(())
     }
 
-    /// Enumerates the states of one property after the other.
-    fn enumerate(&mut self, reachable: &mut Reachable, meter: &mut Meter) -> Result<(), Why> {
-        for (place, netlist, is_violated) in &mut reachable.cones {
-            if self.status[*place] != Status::Open || *is_violated {
-                continue;
-            }
-            // Each has its share, so that a hard one leaves something for others.
-            let given = meter.left / 2;
-            let mut share = meter.clone();
-            share.left = given;
-            let reached = reach(netlist, &mut share);
-            meter.left -= given - share.left;
-            match reached {
-                Ok(Reached::All(states)) => {
-                    self.status[*place] = Status::Holds(Proof::Reachability { states });
+    /// Enumerates the states of one property after the other, except those
+    /// that are `refuted`: of these it is known that they can be violated.
+    fn enumerate(
+        &mut self,
+        cores: &[Cone],
+        refuted: &mut [bool],
+        meter: &mut Meter,
+    ) -> Result<(), Why> {
+        for core in cores {
+            let alone = Classes::alone(core.netlist.size());
+            let mut cutter = Cutter::new(&core.netlist, &alone);
+            let constraints: Vec<usize> = (0..core.netlist.constraints.len()).collect();
+            for (at, &place) in core.properties.iter().enumerate() {
+                if self.status[place] != Status::Open || refuted[place] {
+                    continue;
                 }
-                Ok(Reached::Violation(_)) => *is_violated = true,
-                Err(Why::Steps | Why::Memory) => {}
-                Err(why) => return Err(why),
+                let cone = cutter.cut(&[at], &constraints);
+                meter.spend(4 * cone.netlist.size())?;
+                // Each has its share, so that a hard one leaves something.
+                let given = (meter.left / self.open().len().max(1) as u64).max(TURN / 4);
+                let mut share = meter.clone();
+                share.left = given;
+                let reached = reach(&cone.netlist, &mut share);
+                meter.left = meter.left.saturating_sub(given - share.left);
+                match reached {
+                    Ok(Reached::All(states)) => {
+                        self.status[place] = Status::Holds(Proof::Reachability { states });
+                    }
+                    Ok(Reached::Violation(_)) => refuted[place] = true,
+                    Err(Why::Steps | Why::Memory) => {}
+                    Err(why) => return Err(why),
+                }
             }
         }
         Ok(())
@@ -298,10 +310,10 @@ impl Part {
     /// What the open properties of the part depend on, less what is equal.
     fn core(&self, status: &[Status]) -> Cone {
         let netlist = &self.cone.netlist;
-        let open = open_places(&self.cone, status);
         let constraints: Vec<usize> = (0..netlist.constraints.len()).collect();
-        let core = netlist.merged_cone(&open, &constraints, &self.classes);
-        self.cone.within(core)
+        let open = open_places(&self.cone, status);
+        let mut cutter = Cutter::new(netlist, &self.classes);
+        self.cone.within(cutter.cut(&open, &constraints))
     }
 }
 
@@ -311,23 +323,4 @@ fn open_places(cone: &Cone, status: &[Status]) -> Vec<usize> {
     places
         .filter(|&at| status[cone.properties[at]] == Status::Open)
         .collect()
-}
-
-/// What each property depends on by itself, fewest latches first: its place,
-/// and whether it is known that it can be violated.
-struct Reachable {
-    cones: Vec<(usize, Netlist, bool)>,
-}
-
-impl Reachable {
-    fn of(cores: &[Cone]) -> Self {
-        let mut cones = Vec::new();
-        for core in cores {
-            for (at, &place) in core.properties.iter().enumerate() {
-                cones.push((place, core.netlist.cone(&[at]).netlist, false));
-            }
-        }
-        cones.sort_by_key(|(place, netlist, _)| (netlist.latches.len(), *place));
-        Self { cones }
-    }
 }

@@ -3,7 +3,7 @@
 
 use crate::classes::Classes;
 use crate::netlist::Leaf;
-use crate::{Gates, Initial, Netlist, Output, Signal, Trace};
+use crate::{Gates, Initial, Netlist, Signal, Trace};
 
 /// A part of a netlist, and where its inputs and latches come from.
 #[derive(Clone, Debug)]
@@ -76,147 +76,23 @@ pub(crate) fn joined(parts: &[Cone]) -> Cone {
     all
 }
 
-/// How a node is needed: through the classes, or as it is.
-const MERGED: u8 = 1;
-const RAW: u8 = 2;
-
 impl Netlist {
     /// What the properties at these places depend on, over any number of
-    /// scans, and all constraints with what they depend on. Outputs that the
-    /// part can tell without further gates are kept.
+    /// scans, and all constraints with what they depend on. Outputs are left
+    /// out: a trace for the part is one for the whole.
     pub fn cone(&self, properties: &[usize]) -> Cone {
         let constraints: Vec<usize> = (0..self.constraints.len()).collect();
-        self.part(properties, &constraints)
+        Cutter::new(self, &Classes::alone(self.size())).cut(properties, &constraints)
     }
 
-    /// The same with the constraints at these places and no others. Fewer
-    /// constraints allow more: what is proved of such a part holds of the
-    /// whole, but a trace may be forbidden there.
-    pub(crate) fn part(&self, properties: &[usize], constraints: &[usize]) -> Cone {
-        self.merged_cone(properties, constraints, &Classes::alone(self.size()))
-    }
-
-    /// The cone, each signal replaced by the leader of its class.
-    ///
-    /// The classes hold in every scan that the constraints allow. Whether they
-    /// allow a scan must therefore not be computed by help of the classes, or a
-    /// constraint that they know to be always 1 would be gone: the gates of
-    /// constraints stay what they are.
-    pub(crate) fn merged_cone(
-        &self,
-        properties: &[usize],
-        constraints: &[usize],
-        classes: &Classes,
-    ) -> Cone {
-        let needed = self.needed(properties, constraints, classes);
-        let mut part = Netlist::default();
-        let mut cone = Cone {
-            netlist: Netlist::default(),
-            inputs: Vec::new(),
-            latches: Vec::new(),
-            properties: properties.to_vec(),
-        };
-        let mut merged = vec![Signal::FALSE; self.size()];
-        let mut raw = vec![Signal::FALSE; self.size()];
-        let of = |places: &[Signal], signal: Signal| {
-            places[signal.node()].flipped(signal.is_complement())
-        };
-        for node in 1..self.size() {
-            let leader = classes.0[node];
-            let is_merged = needed[node] & MERGED != 0;
-            let is_raw = needed[node] & RAW != 0;
-            let stays = is_raw || is_merged && leader.node() == node;
-            match self.leaf(node) {
-                Some(Leaf::Input(at)) if stays => {
-                    raw[node] = part.input(self.inputs[at].name.clone());
-                    cone.inputs.push(at);
-                }
-                Some(Leaf::Latch(at)) if stays => {
-                    let latch = &self.latches[at];
-                    raw[node] = part.latch(latch.name.clone(), latch.initial);
-                    cone.latches.push(at);
-                }
-                _ => {}
-            }
-            if let Some([a, b]) = self.graph.gate(node) {
-                if is_raw {
-                    raw[node] = part.and(of(&raw, a), of(&raw, b));
-                }
-                if is_merged && leader.node() == node {
-                    merged[node] = part.and(of(&merged, a), of(&merged, b));
-                }
-            } else if leader.node() == node {
-                merged[node] = raw[node];
-            }
-            if is_merged && leader.node() != node {
-                merged[node] = of(&merged, leader);
-            }
-        }
-        for &at in &cone.latches {
-            let latch = &self.latches[at];
-            part.set_next(raw[latch.signal.node()], of(&merged, latch.next));
-        }
-        for &at in constraints {
-            part.constrain(of(&raw, self.constraints[at]));
-        }
-        for &at in properties {
-            let Output { name, signal } = &self.properties[at];
-            part.never(name.clone(), of(&merged, *signal));
-        }
-        for Output { name, signal } in &self.outputs {
-            let root = classes.leader(*signal).node();
-            if root == 0 || needed[root] & MERGED != 0 {
-                let signal = classes.leader(*signal);
-                part.output(name.clone(), of(&merged, signal));
-            }
-        }
-        cone.netlist = part;
-        cone
-    }
-
-    fn needed(&self, properties: &[usize], constraints: &[usize], classes: &Classes) -> Vec<u8> {
-        let mut needed = vec![0_u8; self.size()];
-        let mut open: Vec<(usize, u8)> = Vec::new();
-        open.extend(
-            properties
-                .iter()
-                .map(|&at| (self.properties[at].signal.node(), MERGED)),
-        );
-        open.extend(
-            constraints
-                .iter()
-                .map(|&at| (self.constraints[at].node(), RAW)),
-        );
-        while let Some((node, way)) = open.pop() {
-            if needed[node] & way != 0 {
-                continue;
-            }
-            let is_first = needed[node] == 0;
-            needed[node] |= way;
-            let leader = classes.0[node].node();
-            if way == MERGED && leader != node {
-                open.push((leader, MERGED));
-                continue;
-            }
-            if let Some([a, b]) = self.graph.gate(node) {
-                open.extend([(a.node(), way), (b.node(), way)]);
-            }
-            if let Some(Leaf::Latch(at)) = self.leaf(node)
-                && (is_first || leader != node)
-            {
-                open.push((self.latches[at].next.node(), MERGED));
-            }
-        }
-        needed
-    }
-
-    /// The inputs and latches that a signal depends on within a scan, as nodes.
-    pub(crate) fn leaves_below(&self, signal: Signal) -> Vec<usize> {
+    /// The inputs and latches that a signal depends on within a scan, as nodes,
+    /// as far as they are found among so many nodes.
+    pub(crate) fn leaves_below(&self, signal: Signal, most: usize) -> Vec<usize> {
         let mut seen = rustc_hash::FxHashSet::default();
         let mut open = vec![signal.node()];
         let mut leaves = Vec::new();
         while let Some(node) = open.pop() {
-            if !seen.insert(node) {
+            if seen.len() == most || !seen.insert(node) {
                 continue;
             }
             match self.graph.gate(node) {
@@ -227,4 +103,147 @@ impl Netlist {
         }
         leaves
     }
+}
+
+/// How a node is needed: through the classes, or as it is.
+const MERGED: u8 = 1;
+const RAW: u8 = 2;
+
+/// Cuts parts out of a netlist, each signal replaced by the leader of its
+/// class. A cut costs as much as the part is large.
+///
+/// The classes hold in every scan that the constraints allow. Whether they allow
+/// a scan must therefore not be computed by help of the classes, or a constraint
+/// that they know to be always 1 would be gone: the gates of constraints stay
+/// what they are.
+pub(crate) struct Cutter<'n> {
+    netlist: &'n Netlist,
+    classes: &'n Classes,
+    needed: Vec<u8>,
+    /// Where the needed nodes are in the part, by both ways.
+    merged: Vec<Signal>,
+    raw: Vec<Signal>,
+}
+
+impl<'n> Cutter<'n> {
+    pub fn new(netlist: &'n Netlist, classes: &'n Classes) -> Self {
+        Self {
+            netlist,
+            classes,
+            needed: vec![0; netlist.size()],
+            merged: vec![Signal::FALSE; netlist.size()],
+            raw: vec![Signal::FALSE; netlist.size()],
+        }
+    }
+
+    /// The part of these properties and these constraints. Fewer constraints
+    /// allow more: what is proved of such a part holds of the whole, but a trace
+    /// may be forbidden there.
+    pub fn cut(&mut self, properties: &[usize], constraints: &[usize]) -> Cone {
+        let nodes = self.need(properties, constraints);
+        let mut cone = Cone {
+            netlist: Netlist::default(),
+            inputs: Vec::new(),
+            latches: Vec::new(),
+            properties: properties.to_vec(),
+        };
+        for &node in &nodes {
+            self.place(node, &mut cone);
+        }
+        let part = &mut cone.netlist;
+        for &at in &cone.latches {
+            let latch = &self.netlist.latches[at];
+            let own = self.raw[latch.signal.node()];
+            part.set_next(own, at_place(&self.merged, latch.next));
+        }
+        for &at in constraints {
+            part.constrain(at_place(&self.raw, self.netlist.constraints[at]));
+        }
+        for &at in properties {
+            let property = &self.netlist.properties[at];
+            part.never(
+                property.name.clone(),
+                at_place(&self.merged, property.signal),
+            );
+        }
+        for node in nodes {
+            self.needed[node] = 0;
+        }
+        cone
+    }
+
+    /// Puts a node into the part, after those that it needs.
+    fn place(&mut self, node: usize, cone: &mut Cone) {
+        let netlist = self.netlist;
+        let leader = self.classes.0[node];
+        let is_merged = self.needed[node] & MERGED != 0;
+        let is_raw = self.needed[node] & RAW != 0;
+        let leads = leader.node() == node;
+        let part = &mut cone.netlist;
+        if let Some([a, b]) = netlist.graph.gate(node) {
+            if is_raw {
+                self.raw[node] = part.and(at_place(&self.raw, a), at_place(&self.raw, b));
+            }
+            if is_merged && leads {
+                self.merged[node] = part.and(at_place(&self.merged, a), at_place(&self.merged, b));
+            }
+        } else if is_raw || leads {
+            match netlist.leaf(node) {
+                Some(Leaf::Input(at)) => {
+                    self.raw[node] = part.input(netlist.inputs[at].name.clone());
+                    cone.inputs.push(at);
+                }
+                Some(Leaf::Latch(at)) => {
+                    let latch = &netlist.latches[at];
+                    self.raw[node] = part.latch(latch.name.clone(), latch.initial);
+                    cone.latches.push(at);
+                }
+                None => {}
+            }
+            self.merged[node] = self.raw[node];
+        }
+        if is_merged && !leads {
+            self.merged[node] = at_place(&self.merged, leader);
+        }
+    }
+
+    /// Marks what is needed and lists it in the netlist's order.
+    fn need(&mut self, properties: &[usize], constraints: &[usize]) -> Vec<usize> {
+        let netlist = self.netlist;
+        let mut nodes = Vec::new();
+        let mut open: Vec<(usize, u8)> = Vec::new();
+        let properties = properties.iter().map(|&at| netlist.properties[at].signal);
+        let constraints = constraints.iter().map(|&at| netlist.constraints[at]);
+        open.extend(properties.map(|it| (it.node(), MERGED)));
+        open.extend(constraints.map(|it| (it.node(), RAW)));
+        while let Some((node, way)) = open.pop() {
+            if self.needed[node] & way != 0 {
+                continue;
+            }
+            let is_first = self.needed[node] == 0;
+            if is_first {
+                nodes.push(node);
+            }
+            self.needed[node] |= way;
+            let leader = self.classes.0[node].node();
+            if way == MERGED && leader != node {
+                open.push((leader, MERGED));
+                continue;
+            }
+            if let Some([a, b]) = netlist.graph.gate(node) {
+                open.extend([(a.node(), way), (b.node(), way)]);
+            }
+            if let Some(Leaf::Latch(at)) = netlist.leaf(node)
+                && (is_first || leader != node)
+            {
+                open.push((netlist.latches[at].next.node(), MERGED));
+            }
+        }
+        nodes.sort_unstable();
+        nodes
+    }
+}
+
+fn at_place(places: &[Signal], signal: Signal) -> Signal {
+    places[signal.node()].flipped(signal.is_complement())
 }

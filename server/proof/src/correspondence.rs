@@ -12,7 +12,7 @@
 use crate::classes::Classes;
 use crate::frame::{Frame, Framing, State};
 use crate::graph::Graph;
-use crate::lanes::{Lanes, WORDS, Word, zip};
+use crate::lanes::{ALL, Lanes, WORDS, Word, zip};
 use crate::limits::{Meter, Why};
 use crate::random::Random;
 use crate::solver::{Answer, Solver};
@@ -20,6 +20,9 @@ use crate::{Gates, Netlist, Signal};
 
 /// Most steps for one question; a candidate that needs more is dropped.
 const QUESTION: u64 = 2_000_000;
+
+/// Scans that are tried after a counterexample.
+const FURTHER: usize = 12;
 
 /// The coarsest refinement of `classes` that can be proved by induction over
 /// one scan, within what single questions may cost.
@@ -135,6 +138,14 @@ struct Counterexample<'s> {
 impl Counterexample<'_> {
     /// Splits the classes by what happens in the last scan; in all lanes but
     /// one some inputs are others than those found, where constraints allow it.
+    ///
+    /// The scan then satisfies the classes, so these must also hold in any scan
+    /// that follows it, and a few are tried: a counterexample that was hard to
+    /// find splits all that it can.
+    ///
+    /// The scan now satisfies the classes, so they must also hold in any that
+    /// follows it, and a few of these are tried as well: a counterexample that
+    /// is seldom found splits all that it can.
     fn split(
         &self,
         classes: &mut Classes,
@@ -161,16 +172,22 @@ impl Counterexample<'_> {
                 lanes.advance();
             }
         }
-        for (input, &signal) in self.netlist.inputs.iter().zip(&frame.inputs) {
-            let mut others: Word = std::array::from_fn(|at| random.rare(at as u32 + 1));
-            others[0] &= !1;
-            lanes.set(
-                input.signal,
-                zip(&self.spread(signal), &others, |a, b| a ^ b),
-            );
+        let mut inputs: Vec<Word> = frame.inputs.iter().map(|&it| self.spread(it)).collect();
+        let mut allowed = ALL;
+        for scan in 0..=FURTHER {
+            for (input, word) in self.netlist.inputs.iter().zip(&mut inputs) {
+                let mut others: Word = std::array::from_fn(|at| random.rare(at as u32 + 1));
+                if scan == 0 {
+                    others[0] &= !1;
+                }
+                *word = zip(word, &others, |a, b| a ^ b);
+                lanes.set(input.signal, *word);
+            }
+            lanes.solve();
+            allowed = zip(&allowed, &lanes.allowed(), |a, b| a & b);
+            classes.refine(&lanes, &allowed);
+            lanes.advance();
         }
-        lanes.solve();
-        classes.refine(&lanes, &lanes.allowed());
     }
 
     fn spread(&self, signal: Signal) -> Word {

@@ -2,8 +2,9 @@
 //! may be equal.
 //!
 //! Every lane is a run of its own from the start. The lanes of one machine word
-//! take new inputs in every scan; those of the others change few of them at a
-//! time, as plants do. In a lane whose constraints do not hold the inputs that
+//! take new inputs in every scan. In the others some inputs, drawn for each run,
+//! rest at one value and seldom leave it: a run in which the emergency stop is
+//! pressed in every other scan gets nowhere. In a lane whose constraints do not hold the inputs that
 //! they depend on are drawn again a few times; if that does not help, the lane
 //! starts anew. Lanes also start anew now and then, so that none stays in a
 //! corner that it cannot leave.
@@ -11,20 +12,25 @@
 use rustc_hash::FxHashMap;
 
 use crate::classes::Classes;
-use crate::lanes::{ALL, LANES, Lanes, NONE, WORDS, Word, bit, first, zip};
+use crate::lanes::{ALL, Lanes, NONE, WORDS, Word, bit, first, zip};
 use crate::limits::{Meter, Why};
 use crate::netlist::Leaf;
 use crate::random::{Random, mixed};
+use crate::runs::Runs;
 use crate::{Netlist, Signal, Trace};
 
 /// How often forbidden inputs are drawn again.
 const REPAIRS: usize = 8;
 /// So many scans are run before it is asked whether they still show anything.
 const BATCH: usize = 16;
-/// Batches that show nothing new before the runs end.
+/// Batches that show nothing new before the runs end, in a large netlist. Where
+/// scans cost less there are more, up to `MOST_QUIET`.
 const QUIET: usize = 4;
+const MOST_QUIET: usize = 12;
+/// Gates evaluated that are always worth their while.
+const WORTH: usize = 200_000;
 /// Every so many scans the lanes of one word start anew.
-const RESTART: usize = 96;
+const RESTART: usize = 24;
 /// Most scans; a run is kept from its start, to tell its inputs.
 const MOST: usize = 1024;
 
@@ -47,6 +53,8 @@ pub(crate) fn explore(netlist: &Netlist, meter: &mut Meter) -> Result<Explored, 
     let depends = supports(netlist);
     let mut runs = Runs::new(netlist, &lanes);
     let mut inputs = vec![NONE; netlist.inputs.len()];
+    let mut manners = vec![Manner::new(); inputs.len()];
+    manners.iter_mut().for_each(|it| it.draw(&ALL, &mut random));
     let mut prints = Prints::new(netlist.size());
     let mut explored = Explored {
         classes: Classes::default(),
@@ -55,10 +63,11 @@ pub(crate) fn explore(netlist: &Netlist, meter: &mut Meter) -> Result<Explored, 
         allowed: Vec::new(),
     };
     let (mut kinds, mut quiet) = (0, 0);
+    let enough = (WORTH / netlist.size() / BATCH).clamp(QUIET, MOST_QUIET);
     for scan in 0..MOST {
         meter.spend(netlist.size() * 2)?;
-        for word in &mut inputs {
-            *word = drawn(word, &mut random);
+        for (word, manner) in inputs.iter_mut().zip(&manners) {
+            *word = manner.next(&mut random);
         }
         let mut allowed = solved(netlist, &mut lanes, &inputs);
         for _ in 0..REPAIRS {
@@ -84,19 +93,23 @@ pub(crate) fn explore(netlist: &Netlist, meter: &mut Meter) -> Result<Explored, 
             explored.trace = Some(runs.trace(lane));
         }
         lanes.advance();
+        runs.remember(&lanes, &allowed);
         let mut ended = allowed.map(|bits| !bits);
         if scan % RESTART == RESTART - 1 {
             ended[scan / RESTART % WORDS] = u64::MAX;
         }
         if ended != NONE {
             lanes.restart(&ended, || std::array::from_fn(|_| random.bits()));
-            runs.restart(&lanes, &ended);
+            runs.restart(&mut lanes, &ended, &mut random);
+            manners
+                .iter_mut()
+                .for_each(|it| it.draw(&ended, &mut random));
         }
         if scan % BATCH == BATCH - 1 {
             let now = prints.kinds();
             quiet = if now > kinds { 0 } else { quiet + 1 };
             kinds = now;
-            if quiet == QUIET {
+            if quiet == enough {
                 break;
             }
         }
@@ -105,15 +118,40 @@ pub(crate) fn explore(netlist: &Netlist, meter: &mut Meter) -> Result<Explored, 
     Ok(explored)
 }
 
-/// The next inputs: all new in the first word, few changes in the others, and
-/// most of them 0 in the last.
-fn drawn(before: &Word, random: &mut Random) -> Word {
-    [
-        random.bits(),
-        before[1] ^ random.rare(2),
-        before[2] ^ random.rare(4),
-        random.rare(2),
-    ]
+/// How an input behaves in each lane until the lane starts anew.
+#[derive(Clone)]
+struct Manner {
+    /// Whether it is drawn in every scan. Else it rests,
+    lively: Word,
+    /// at this value, and leaves it once in 64 scans.
+    rest: Word,
+}
+
+impl Manner {
+    fn new() -> Self {
+        Self {
+            lively: NONE,
+            rest: NONE,
+        }
+    }
+
+    /// Draws how it behaves from now on in the lanes of `which`: all inputs are
+    /// lively in the first word, and fewer from word to word.
+    fn draw(&mut self, which: &Word, random: &mut Random) {
+        let quiet = [0, random.rare(3), random.rare(2), random.rare(1)];
+        for at in 0..WORDS {
+            let kept = !which[at];
+            self.lively[at] = self.lively[at] & kept | !quiet[at] & which[at];
+            self.rest[at] = self.rest[at] & kept | random.bits() & which[at];
+        }
+    }
+
+    fn next(&self, random: &mut Random) -> Word {
+        std::array::from_fn(|at| {
+            let at_rest = self.rest[at] ^ random.rare(6);
+            random.bits() & self.lively[at] | at_rest & !self.lively[at]
+        })
+    }
 }
 
 fn solved(netlist: &Netlist, lanes: &mut Lanes<'_>, inputs: &[Word]) -> Word {
@@ -161,7 +199,7 @@ fn supports(netlist: &Netlist) -> Vec<Vec<usize>> {
     constraints
         .map(|&constraint| {
             let mut inputs: Vec<usize> = netlist
-                .leaves_below(constraint)
+                .leaves_below(constraint, usize::MAX)
                 .into_iter()
                 .filter_map(|node| match netlist.leaf(node) {
                     Some(Leaf::Input(at)) => Some(at),
@@ -172,49 +210,6 @@ fn supports(netlist: &Netlist) -> Vec<Vec<usize>> {
             inputs
         })
         .collect()
-}
-
-/// All that is needed to tell what happened in one lane.
-struct Runs {
-    inputs: Vec<Vec<Word>>,
-    /// Where each lane started last, and what its latches held there.
-    started: Vec<(usize, Vec<bool>)>,
-    latches: Vec<Signal>,
-}
-
-impl Runs {
-    fn new(netlist: &Netlist, lanes: &Lanes<'_>) -> Self {
-        let mut runs = Self {
-            inputs: Vec::new(),
-            started: vec![(0, Vec::new()); LANES],
-            latches: netlist.latches.iter().map(|latch| latch.signal).collect(),
-        };
-        runs.restart(lanes, &ALL);
-        runs
-    }
-
-    fn restart(&mut self, lanes: &Lanes<'_>, which: &Word) {
-        for lane in (0..LANES).filter(|&lane| bit(which, lane)) {
-            let latches = self.latches.iter();
-            let values = latches.map(|latch| bit(lanes.node(latch.node()), lane));
-            self.started[lane] = (self.inputs.len(), values.collect());
-        }
-    }
-
-    fn scans(&self, lane: usize) -> usize {
-        self.inputs.len() - self.started[lane].0
-    }
-
-    fn trace(&self, lane: usize) -> Trace {
-        let (start, initial) = &self.started[lane];
-        let inputs = self.inputs[*start..].iter();
-        Trace {
-            initial: initial.clone(),
-            inputs: inputs
-                .map(|words| words.iter().map(|word| bit(word, lane)).collect())
-                .collect(),
-        }
-    }
 }
 
 /// What each node did, in one number: two nodes with the same number were most

@@ -71,6 +71,7 @@ mod plain;
 mod random;
 mod reach;
 mod report;
+mod runs;
 mod signal;
 mod solver;
 mod trace;

@@ -15,9 +15,19 @@ impl Random {
         mixed(self.0)
     }
 
-    /// 64 bits, each 1 once in `2^halvings`.
+    /// 64 bits, each 1 once in `2^halvings`. Three halvings share a draw, each
+    /// with other bits of it.
     pub fn rare(&mut self, halvings: u32) -> u64 {
-        (0..halvings).fold(u64::MAX, |bits, _| bits & self.bits())
+        let mut rare = u64::MAX;
+        let mut draw = 0;
+        for halving in 0..halvings {
+            draw = match halving % 3 {
+                0 => self.bits(),
+                _ => draw.rotate_left(21),
+            };
+            rare &= draw;
+        }
+        rare
     }
 }
 

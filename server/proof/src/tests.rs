@@ -12,6 +12,7 @@ use proptest::prelude::*;
 
 use crate::bounded::{Bounded, Scan};
 use crate::classes::Classes;
+use crate::cone::Cutter;
 use crate::correspondence::corresponding;
 use crate::explore::explore;
 use crate::frame::Framing;
@@ -101,7 +102,7 @@ proptest! {
         let classes = corresponding(&framing, candidates, &mut meter()).expect("small");
         let all: Vec<usize> = (0..netlist.properties.len()).collect();
         let constraints: Vec<usize> = (0..netlist.constraints.len()).collect();
-        let merged = netlist.merged_cone(&all, &constraints, &classes);
+        let merged = Cutter::new(&netlist, &classes).cut(&all, &constraints);
         let reached = reach(&merged.netlist, &mut meter()).expect("small");
         match shortest {
             None => prop_assert!(matches!(reached, Reached::All(_))),
