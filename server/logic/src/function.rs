@@ -6,6 +6,7 @@ use rustc_hash::FxHashMap;
 
 use crate::{Atom, AtomId, Atoms, Budget, Expr, Stop};
 
+mod decisions;
 mod literals;
 
 /// A Boolean function over atoms: what an expression means.

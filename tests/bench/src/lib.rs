@@ -19,5 +19,6 @@ pub mod memory;
 pub mod pair;
 pub mod plant;
 pub mod real;
+pub mod sequencer;
 pub mod whole;
 pub mod xml;

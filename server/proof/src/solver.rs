@@ -1,0 +1,200 @@
+use std::cell::Cell;
+
+use batsat::{Callbacks, ClauseKind, Lit, Solver as Sat, SolverInterface, SolverOpts, lbool};
+use logic::Cancel;
+
+use crate::Signal;
+use crate::graph::Graph;
+use crate::limits::{Meter, Why};
+
+/// What a decision and a conflict of the search count for, in steps: so many
+/// literals are propagated for one of them on average.
+const PER_DECISION: u64 = 10;
+const PER_CONFLICT: u64 = 100;
+
+/// Asks whether signals of a graph can be 1 together.
+///
+/// The graph may grow between questions. Of its gates only those are known to
+/// the search that a question or an assertion needs, as three clauses each
+/// (Tseitin 1968), so questions about a corner of a large graph stay cheap;
+/// what was learnt in one is used in the next (Eén, Sörensson: Temporal
+/// induction by incremental SAT solving, 2003).
+pub(crate) struct Solver {
+    sat: Sat<Watch>,
+    /// The variable of each node that was asked about.
+    variables: Vec<Option<batsat::Var>>,
+    clause: Vec<Lit>,
+    open: Vec<usize>,
+}
+
+/// Whether the signals of a question can be 1 together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Answer {
+    /// They can; [`Solver::value`] tells how.
+    Yes,
+    /// They cannot.
+    No,
+}
+
+impl Default for Solver {
+    fn default() -> Self {
+        Self {
+            sat: Sat::new(SolverOpts::default(), Watch::default()),
+            variables: Vec::new(),
+            clause: Vec::new(),
+            open: Vec::new(),
+        }
+    }
+}
+
+impl Solver {
+    /// From now on `signal` is 1.
+    pub fn assert(&mut self, graph: &Graph, signal: Signal, meter: &mut Meter) -> Result<(), Why> {
+        self.assert_any(graph, &[signal], meter)
+    }
+
+    /// From now on at least one of the signals is 1.
+    pub fn assert_any(
+        &mut self,
+        graph: &Graph,
+        signals: &[Signal],
+        meter: &mut Meter,
+    ) -> Result<(), Why> {
+        let mut clause = Vec::with_capacity(signals.len());
+        for &signal in signals {
+            clause.push(self.literal(graph, signal, meter)?);
+        }
+        self.sat.add_clause_reuse(&mut clause);
+        Ok(())
+    }
+
+    /// Whether all of `signals` can be 1 together with what was asserted.
+    pub fn ask(
+        &mut self,
+        graph: &Graph,
+        signals: &[Signal],
+        meter: &mut Meter,
+    ) -> Result<Answer, Why> {
+        let mut assumed = Vec::with_capacity(signals.len());
+        for &signal in signals {
+            assumed.push(self.literal(graph, signal, meter)?);
+        }
+        let clauses = self.sat.num_clauses() as usize;
+        self.sat.cb_mut().start(meter, clauses);
+        let before = self.sat.num_propagations();
+        let answer = self.sat.solve_limited(&assumed);
+        let propagated = self.sat.num_propagations() - before;
+        let full = self.sat.cb().kept.get() >= meter.clauses;
+        let spent = meter.spend(propagated as usize + 10);
+        if answer == lbool::TRUE {
+            Ok(Answer::Yes)
+        } else if answer == lbool::FALSE {
+            Ok(Answer::No)
+        } else {
+            spent?;
+            Err(if full { Why::Memory } else { Why::Steps })
+        }
+    }
+
+    /// The value of a signal in the last answer, if the answer was yes and the
+    /// signal mattered to it.
+    pub fn value(&self, signal: Signal) -> Option<bool> {
+        if signal.node() == 0 {
+            return Some(signal == Signal::TRUE);
+        }
+        let variable = self.variables.get(signal.node()).copied().flatten()?;
+        let value = self
+            .sat
+            .value_lit(Lit::new(variable, !signal.is_complement()));
+        (value != lbool::UNDEF).then_some(value == lbool::TRUE)
+    }
+
+    /// The literal of a signal, whose gates are made known as far as needed.
+    fn literal(&mut self, graph: &Graph, signal: Signal, meter: &mut Meter) -> Result<Lit, Why> {
+        if self.variables.len() < graph.len() {
+            self.variables.resize(graph.len(), None);
+        }
+        let mut made = 0;
+        self.open.push(signal.node());
+        while let Some(&node) = self.open.last() {
+            if self.variables[node].is_some() {
+                self.open.pop();
+                continue;
+            }
+            match graph.gate(node) {
+                None => {
+                    let variable = self.sat.new_var_default();
+                    self.variables[node] = Some(variable);
+                    if node == 0 {
+                        self.add(&[Lit::new(variable, false)]);
+                    }
+                }
+                Some([a, b]) => {
+                    let known = |signal: Signal| self.variables[signal.node()];
+                    let (Some(left), Some(right)) = (known(a), known(b)) else {
+                        self.open.extend([a.node(), b.node()]);
+                        continue;
+                    };
+                    let variable = self.sat.new_var_default();
+                    self.variables[node] = Some(variable);
+                    let both = Lit::new(variable, true);
+                    let left = Lit::new(left, !a.is_complement());
+                    let right = Lit::new(right, !b.is_complement());
+                    self.add(&[!both, left]);
+                    self.add(&[!both, right]);
+                    self.add(&[both, !left, !right]);
+                    made += 1;
+                }
+            }
+            self.open.pop();
+        }
+        meter.spend(10 * made)?;
+        if self.sat.num_clauses() as usize > meter.clauses {
+            return Err(Why::Memory);
+        }
+        let variable = self.variables[signal.node()].unwrap_or(batsat::Var::UNDEF);
+        Ok(Lit::new(variable, !signal.is_complement()))
+    }
+
+    fn add(&mut self, literals: &[Lit]) {
+        self.clause.clear();
+        self.clause.extend_from_slice(literals);
+        self.sat.add_clause_reuse(&mut self.clause);
+    }
+}
+
+/// Stops a search from within: asked at every decision.
+#[derive(Default)]
+struct Watch {
+    cancel: Cancel,
+    left: Cell<u64>,
+    kept: Cell<usize>,
+    most: usize,
+}
+
+impl Watch {
+    fn start(&mut self, meter: &Meter, clauses: usize) {
+        self.cancel = meter.cancel.clone();
+        self.left.set(meter.left);
+        self.kept.set(clauses);
+        self.most = meter.clauses;
+    }
+}
+
+impl Callbacks for Watch {
+    fn stop(&self) -> bool {
+        self.left.set(self.left.get().saturating_sub(PER_DECISION));
+        self.left.get() == 0 || self.kept.get() >= self.most || self.cancel.is_cancelled()
+    }
+
+    fn on_new_clause(&mut self, _: &[Lit], kind: ClauseKind) {
+        if kind == ClauseKind::Learnt {
+            self.left.set(self.left.get().saturating_sub(PER_CONFLICT));
+            self.kept.set(self.kept.get() + 1);
+        }
+    }
+
+    fn on_delete_clause(&mut self, _: &[Lit]) {
+        self.kept.set(self.kept.get().saturating_sub(1));
+    }
+}

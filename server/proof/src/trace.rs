@@ -1,0 +1,119 @@
+use logic::Name;
+
+use crate::Netlist;
+use crate::lanes::{Lanes, WORDS, bit};
+
+/// A sequence of inputs, scan by scan, and where it starts from.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Trace {
+    /// What each latch holds before the first scan, in the netlist's order.
+    /// Only those of [free](crate::Initial::Free) latches are looked at;
+    /// missing ones are 0.
+    pub initial: Vec<bool>,
+    /// The inputs of each scan, in the netlist's order; missing ones are 0.
+    pub inputs: Vec<Vec<bool>>,
+}
+
+impl Trace {
+    /// Number of scans.
+    pub fn scans(&self) -> usize {
+        self.inputs.len()
+    }
+}
+
+/// What a netlist does on a trace.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Replay {
+    /// The outputs in each scan, in the netlist's order.
+    pub outputs: Vec<Vec<bool>>,
+    /// The latches in each scan, as the scan found them.
+    pub latches: Vec<Vec<bool>>,
+    /// The first scan, counted from 0, in which a constraint does not hold: what
+    /// the trace says from there on cannot happen.
+    pub forbidden: Option<usize>,
+    /// The first scan in which a property is violated while every constraint
+    /// has held, and the properties violated there.
+    pub violation: Option<(usize, Vec<Name>)>,
+}
+
+/// Runs the netlist on a trace. The one judge of traces: what an engine finds
+/// is told only after it was seen here.
+pub fn replay(netlist: &Netlist, trace: &Trace) -> Replay {
+    let spread = |value: bool| [0_u64.wrapping_sub(value.into()); WORDS];
+    let mut replay = Replay::default();
+    let mut initial = netlist
+        .latches
+        .iter()
+        .zip(
+            trace
+                .initial
+                .iter()
+                .copied()
+                .chain(std::iter::repeat(false)),
+        )
+        .filter(|(latch, _)| latch.initial.value().is_none())
+        .map(|(_, value)| spread(value));
+    let mut lanes = Lanes::new(netlist, || initial.next().unwrap_or_default());
+    for (scan, values) in trace.inputs.iter().enumerate() {
+        let values = values.iter().copied().chain(std::iter::repeat(false));
+        for (input, value) in netlist.inputs.iter().zip(values) {
+            lanes.set(input.signal, spread(value));
+        }
+        lanes.solve();
+        let value = |signal| bit(&lanes.value(signal), 0);
+        let of = |outputs: &[crate::Output]| -> Vec<bool> {
+            outputs.iter().map(|output| value(output.signal)).collect()
+        };
+        replay.outputs.push(of(&netlist.outputs));
+        let latches = netlist.latches.iter().map(|latch| value(latch.signal));
+        replay.latches.push(latches.collect());
+        if replay.forbidden.is_none() && !bit(&lanes.allowed(), 0) {
+            replay.forbidden = Some(scan);
+        }
+        if replay.forbidden.is_none() && replay.violation.is_none() {
+            let violated: Vec<Name> = netlist
+                .properties
+                .iter()
+                .filter(|property| value(property.signal))
+                .map(|property| property.name.clone())
+                .collect();
+            if !violated.is_empty() {
+                replay.violation = Some((scan, violated));
+            }
+        }
+        lanes.advance();
+    }
+    replay
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Gates;
+
+    #[test]
+    fn a_latch_shows_what_the_scan_before_computed() {
+        let mut netlist = Netlist::default();
+        let start = netlist.input("start");
+        let stop = netlist.input("stop");
+        let motor = netlist.latch("motor", false);
+        let held = netlist.or(start, motor);
+        let runs = netlist.and(held, !stop);
+        netlist.set_next(motor, runs);
+        netlist.output("motor", runs);
+        let both = netlist.and(start, stop);
+        netlist.constrain(!both);
+        netlist.never("runs by itself", motor);
+
+        let row = |text: &str| text.chars().map(|c| c == '1').collect::<Vec<bool>>();
+        let trace = Trace {
+            initial: Vec::new(),
+            inputs: ["00", "10", "00", "01", "11"].map(row).to_vec(),
+        };
+        let seen = replay(&netlist, &trace);
+        assert_eq!(seen.outputs, ["0", "1", "1", "0", "0"].map(row));
+        assert_eq!(seen.latches, ["0", "0", "1", "1", "0"].map(row));
+        assert_eq!(seen.forbidden, Some(4));
+        assert_eq!(seen.violation, Some((2, vec!["runs by itself".into()])));
+    }
+}
