@@ -11,12 +11,12 @@ impl Function {
     /// they come from 2 on; 0 and 1 are the constants. The last is the
     /// function; a constant has none.
     pub fn decisions(&self) -> impl Iterator<Item = (usize, usize, usize)> + '_ {
-        (2..self.diagram.size()).map(|at| {
+        (2..self.diagram().size()).map(|at| {
             let node = BddPointer::from_index(at);
             (
-                self.diagram.var_of(node).to_index(),
-                self.diagram.low_link_of(node).to_index(),
-                self.diagram.high_link_of(node).to_index(),
+                self.diagram().var_of(node).to_index(),
+                self.diagram().low_link_of(node).to_index(),
+                self.diagram().high_link_of(node).to_index(),
             )
         })
     }
