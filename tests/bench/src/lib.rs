@@ -11,6 +11,7 @@
 //! parts over time. This crate measures; it tests nothing but its own
 //! generators and that both libraries of diagrams agree.
 
+pub mod abc;
 pub mod circuit;
 pub mod diagrams;
 pub mod guards;

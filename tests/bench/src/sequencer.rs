@@ -68,7 +68,12 @@ pub fn rows(rows: usize, encoding: Encoding, fault: Option<Fault>) -> Netlist {
     netlist
 }
 
-fn latches(netlist: &mut Netlist, row: usize, leaves: &[Signal], encoding: Encoding) -> Vec<Signal> {
+fn latches(
+    netlist: &mut Netlist,
+    row: usize,
+    leaves: &[Signal],
+    encoding: Encoding,
+) -> Vec<Signal> {
     let steps: Vec<Signal> = (0..STEPS)
         .map(|step| netlist.latch(format!("r{row}x{step}"), step == 0))
         .collect();
@@ -96,7 +101,13 @@ fn register(netlist: &mut Netlist, row: usize, leaves: &[Signal]) -> Vec<Signal>
     let steps: Vec<Signal> = (0..STEPS)
         .map(|step| {
             let literals: Vec<Signal> = (0..3)
-                .map(|bit| if step >> bit & 1 == 1 { bits[bit] } else { !bits[bit] })
+                .map(|bit| {
+                    if step >> bit & 1 == 1 {
+                        bits[bit]
+                    } else {
+                        !bits[bit]
+                    }
+                })
                 .collect();
             netlist.all(&literals)
         })
