@@ -77,6 +77,39 @@ fn on_an_input_its_readers_are_shown() {
 }
 
 #[test]
+fn a_value_of_a_step_register_is_a_state() {
+    let mut client = client();
+    let text = "\
+rung: Seq = 0 * go -> Seq := 10
+rung: Seq = $010 * done -> Seq := 20
+rung: Seq = 20 * back -> Seq := 0
+";
+    let marked = client.open("press.ladder", text);
+    let params = HoverParams {
+        text_document_position_params: client.at("press.ladder", marked.position(0, false)),
+        work_done_progress_params: Default::default(),
+    };
+    let hover = client.request::<HoverRequest>(params).expect("a hover");
+    let HoverContents::Markup(markup) = hover.contents else {
+        panic!("no markup");
+    };
+    assert_eq!(
+        markup.value,
+        "**Seq=10**  
+value of a step register
+
+```text
+powered      1
+
+follows      Seq=0 (written)
+followed by  Seq=20 (written)
+
+──[ Seq = 10 ]────[ done ]────[ Seq := 20 ]
+```"
+    );
+}
+
+#[test]
 fn what_is_long_goes_on_in_the_next_line() {
     let mut client = client();
     let names: Vec<String> = (0..9).map(|at| format!("conveyor_{at}_empty")).collect();

@@ -6,6 +6,7 @@ use recovery::conditions::Place;
 use source::Span;
 
 use super::{Block, Hover, WIDTH, coil};
+use crate::navigate::state_of;
 use crate::{Ladder, Mention, Spec, Usage, describe, element, legible};
 
 /// What is known of the thing at the byte `offset` of a ladder: a variable, a
@@ -24,7 +25,7 @@ pub fn hover_in_ladder(
         && !is_plain(element)
         && mention.is_none_or(|it| it.place.is_some())
     {
-        return Some(of_box(ladder, place, element, budget));
+        return Some(of_box(ladder, spec, place, element, budget));
     }
     if let Some(mention) = mention {
         return Some(of_variable(
@@ -205,8 +206,15 @@ fn first_line(text: &str) -> &str {
         .unwrap_or_default()
 }
 
-/// A box: what it is, and the rung it stands on.
-fn of_box(ladder: &Ladder, place: Place, element: &Element, budget: &Budget) -> Hover {
+/// A box: what it is, and the rung it stands on. One that compares with or
+/// writes a value of a step register is about that state.
+fn of_box(
+    ladder: &Ladder,
+    spec: Option<&Spec>,
+    place: Place,
+    element: &Element,
+    budget: &Budget,
+) -> Hover {
     let text = ladder.text.get(element.span.range()).unwrap_or_default();
     let conditions = &ladder.analysis.conditions;
     let power = ladder.power_at(place, budget);
@@ -214,12 +222,21 @@ fn of_box(ladder: &Ladder, place: Place, element: &Element, budget: &Budget) -> 
     if let Some(power) = power.and_then(|it| legible(&it, conditions, budget)) {
         blocks.push(Block::Fields(vec![("powered", power)]));
     }
+    let state = state_of(ladder, &element.kind);
+    let mut summary = describe::summary(&element.kind);
+    if let Some(state) = &state {
+        summary = coil::value_summary(state, ladder).unwrap_or(summary);
+        blocks.push(Block::Fields(coil::neighbours(state, ladder, spec, budget)));
+    }
     blocks.extend(drawing(ladder, place));
     Hover {
         span: element.span,
-        name: describe::name(&element.kind, text),
+        name: match state {
+            Some(state) => state.to_string(),
+            None => describe::name(&element.kind, text),
+        },
         address: None,
-        summary: describe::summary(&element.kind),
+        summary,
         blocks,
     }
 }
