@@ -5,9 +5,9 @@ use logic::{Budget, Name};
 use recovery::conditions::Place;
 use source::Span;
 
-use super::{Block, Hover, WIDTH, coil};
+use super::{Block, Hover, Rungs, WIDTH, coil};
 use crate::navigate::state_of;
-use crate::{Ladder, Mention, Spec, Usage, describe, element, legible};
+use crate::{Ladder, Spec, Usage, describe, element, legible};
 
 /// What is known of the thing at the byte `offset` of a ladder: a variable, a
 /// box or a rung.
@@ -94,12 +94,14 @@ pub(super) fn of_variable(
                 .filter_map(|it| it.place)
                 .collect();
             drawn.dedup_by_key(|place| (place.routine, place.rung));
+            let drives = rungs(ladder, "Driven by", drawn.iter().copied());
             blocks.extend(
                 drawn
                     .iter()
                     .take(MOST_DRAWN)
                     .filter_map(|&place| drawing(ladder, place)),
             );
+            blocks.extend(drives);
             Hover {
                 span,
                 name: name.to_string(),
@@ -163,28 +165,27 @@ fn of_input(ladder: &Ladder, name: &Name, span: Span) -> Hover {
 
 /// The rungs that read a variable.
 fn readers(ladder: &Ladder, name: &Name) -> Option<Block> {
-    let read = |it: &&Mention| it.usage == Usage::Read;
-    let mut rungs: Vec<String> = ladder
-        .names
-        .of(name)
-        .filter(read)
-        .filter_map(|it| rung_title(ladder, it.place?))
-        .collect();
-    rungs.dedup();
-    let count = rungs.len();
-    if count == 0 {
-        return None;
-    }
-    rungs.truncate(MOST_READERS);
-    let more = match count - rungs.len() {
-        0 => String::new(),
-        more => format!(" and {more} more"),
-    };
-    Some(Block::Text(format!("Read by {}{more}", rungs.join(", "))))
+    let read = ladder.names.of(name).filter(|it| it.usage == Usage::Read);
+    rungs(ladder, "Read by", read.filter_map(|it| it.place))
 }
 
-/// Rungs that are named of those that read a variable.
-const MOST_READERS: usize = 6;
+/// The rungs at these places; `None` if there are none.
+fn rungs(
+    ladder: &Ladder,
+    label: &'static str,
+    places: impl Iterator<Item = Place>,
+) -> Option<Block> {
+    let mut named: Vec<(String, Span)> = places
+        .filter_map(|place| Some((rung_title(ladder, place)?, ladder.rung(place)?.1.span)))
+        .collect();
+    named.dedup();
+    let more = named.len().saturating_sub(MOST_NAMED);
+    named.truncate(MOST_NAMED);
+    (!named.is_empty()).then_some(Block::Rungs(Rungs { label, named, more }))
+}
+
+/// Rungs that are named of those that read or write a variable.
+const MOST_NAMED: usize = 6;
 
 /// A rung as people name it.
 pub(crate) fn rung_title(ladder: &Ladder, place: Place) -> Option<String> {
