@@ -52,9 +52,19 @@ followed by  v2 (handover on s*ls2)
 
 ┬──[ s ]───┬──[/ls2]────( v1 )
 └──[ v1 ]──┘
-```";
-    let markdown = shown(Profile::VsCode, "(s + v", "1) *");
+```
+
+Driven by rung 0 of Tank (Fill the tank)";
+    let markdown = shown(Profile::Neovim, "(s + v", "1) *");
     assert_eq!(markdown, Some((MarkupKind::Markdown, wanted.to_owned())));
+}
+
+#[test]
+fn rungs_are_links_where_the_client_follows_them() {
+    let (_, text) = shown(Profile::VsCode, "(s + v", "1) *").expect("a hover");
+    let last = text.lines().last().expect("a line");
+    let begins = last.starts_with("Driven by [rung 0 of Tank (Fill the tank)](file:///");
+    assert!(begins && last.ends_with("/tank.ladder#L8)"), "{last}");
 }
 
 #[test]
@@ -69,7 +79,7 @@ fn a_client_without_markdown_is_shown_plain_text() {
 
 #[test]
 fn on_an_input_its_readers_are_shown() {
-    let (_, text) = shown(Profile::VsCode, "/ls", "2 ->").expect("a hover");
+    let (_, text) = shown(Profile::Helix, "/ls", "2 ->").expect("a hover");
     assert_eq!(
         text,
         "**ls2**  \nLevel: input\n\nRead by rung 0 of Tank (Fill the tank), rung 1 of Tank"
@@ -77,13 +87,46 @@ fn on_an_input_its_readers_are_shown() {
 }
 
 #[test]
-fn what_is_long_goes_on_in_the_next_line() {
+fn a_value_of_a_step_register_is_a_state() {
     let mut client = client();
+    let text = "\
+rung: Seq = 0 * go -> Seq := 10
+rung: Seq = $010 * done -> Seq := 20
+rung: Seq = 20 * back -> Seq := 0
+";
+    let marked = client.open("press.ladder", text);
+    let params = HoverParams {
+        text_document_position_params: client.at("press.ladder", marked.position(0, false)),
+        work_done_progress_params: Default::default(),
+    };
+    let hover = client.request::<HoverRequest>(params).expect("a hover");
+    let HoverContents::Markup(markup) = hover.contents else {
+        panic!("no markup");
+    };
+    assert_eq!(
+        markup.value,
+        "**Seq=10**  
+value of a step register
+
+```text
+powered      1
+
+follows      Seq=0 (written)
+followed by  Seq=20 (written)
+
+──[ Seq = 10 ]────[ done ]────[ Seq := 20 ]
+```"
+    );
+}
+
+#[test]
+fn what_is_long_goes_on_in_the_next_line() {
+    let mut client = client_like(Profile::Helix);
     let names: Vec<String> = (0..9).map(|at| format!("conveyor_{at}_empty")).collect();
     let text = format!("rung: {} -> $0ready\n", names.join(" * "));
     let marked = client.open("wide.ladder", &text);
     let params = HoverParams {
-        text_document_position_params: client.at("wide.ladder", marked.position(0, false)),
+        text_document_position_params: client.at("wide.ladder", marked.position(0, true)),
         work_done_progress_params: Default::default(),
     };
     let hover = client.request::<HoverRequest>(params).expect("a hover");
@@ -104,7 +147,9 @@ on while  conveyor_0_empty*conveyor_1_empty*conveyor_2_empty*
 →───[ conveyor_3_empty ]────[ conveyor_4_empty ]────[ conveyor_5_empty ]───→
 →───[ conveyor_6_empty ]────[ conveyor_7_empty ]────[ conveyor_8_empty ]───→
 →───( ready )
-```"
+```
+
+Driven by rung 0 of main"
     );
 }
 

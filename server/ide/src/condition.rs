@@ -58,12 +58,12 @@ pub fn legible(function: &Function, conditions: &Conditions, budget: &Budget) ->
 
 /// `text`, a condition, in lines of at most `width` columns where that is
 /// possible: broken before a product, and in a product that is too long behind a
-/// factor. The lines after the first begin at column `indent`, as the first
-/// does.
+/// factor, or before a sum within it. The lines after the first begin at column
+/// `indent`, as the first does, and deeper within products and parentheses.
 pub fn broken(text: &str, indent: usize, width: usize) -> String {
     let mut out = String::new();
     let mut column = indent;
-    for (nth, product) in text.split(" + ").enumerate() {
+    for (nth, product) in products(text).into_iter().enumerate() {
         let length = product.chars().count() + SIGN;
         if nth > 0 && column + length > width {
             begin_line(&mut out, indent);
@@ -77,16 +77,18 @@ pub fn broken(text: &str, indent: usize, width: usize) -> String {
             column += length;
             continue;
         }
-        // Lines of one product begin behind its sign.
-        let inner = indent + 2;
-        for (nth, factor) in factors(product).enumerate() {
-            let length = factor.chars().count();
+        for (nth, (depth, part)) in parts(product).into_iter().enumerate() {
+            let length = part.chars().count();
             if nth > 0 && column + length > width {
+                // Lines of one product begin behind its sign.
+                let inner = indent + 2 + 2 * depth;
                 begin_line(&mut out, inner);
-                column = inner;
+                out.push_str(part.trim_start());
+                column = inner + part.trim_start().chars().count();
+            } else {
+                out.push_str(part);
+                column += length;
             }
-            out.push_str(factor);
-            column += length;
         }
         column += SIGN;
     }
@@ -101,14 +103,57 @@ fn begin_line(out: &mut String, indent: usize) {
     out.push_str(&" ".repeat(indent));
 }
 
-/// The factors of a product with the signs behind them; a sign within quotes is
-/// part of a name.
-fn factors(product: &str) -> impl Iterator<Item = &str> {
-    let mut quoted = false;
-    product.split_inclusive(move |c| {
-        quoted ^= c == '"';
-        c == '*' && !quoted
-    })
+/// The products of a sum, without the signs between them.
+fn products(text: &str) -> Vec<&str> {
+    let mut all = Vec::new();
+    let mut start = 0;
+    for (at, depth, _) in signs(text).filter(|(_, _, sign)| *sign == '+') {
+        if depth == 0 {
+            all.push(text[start..at].trim_end());
+            start = at + 2;
+        }
+    }
+    all.push(text.get(start..).unwrap_or_default());
+    all
+}
+
+/// What a product is made of, each part with the parentheses around it: factors
+/// with the signs behind them, and sums in parentheses product by product.
+fn parts(product: &str) -> Vec<(usize, &str)> {
+    let mut all = Vec::new();
+    let (mut start, mut around) = (0, 0);
+    for (at, depth, sign) in signs(product) {
+        // A blank belongs to the sign behind it.
+        let end = match sign {
+            '*' => at + 1,
+            _ => at.saturating_sub(1),
+        };
+        all.push((around, &product[start..end]));
+        (start, around) = (end, depth);
+    }
+    all.push((around, &product[start..]));
+    all
+}
+
+/// The signs `*` and ` + ` of a condition that are no part of a name: where they
+/// are, and how many parentheses are around them.
+fn signs(text: &str) -> impl Iterator<Item = (usize, usize, char)> {
+    let (mut quoted, mut depth) = (false, 0_usize);
+    let sign = move |(at, c): (usize, char)| {
+        match c {
+            '"' => quoted = !quoted,
+            _ if quoted => {}
+            '(' => depth += 1,
+            ')' => depth = depth.saturating_sub(1),
+            '*' => return Some((at, depth, c)),
+            '+' if text[..at].ends_with(' ') && text[at + 1..].starts_with(' ') => {
+                return Some((at, depth, c));
+            }
+            _ => {}
+        }
+        None
+    };
+    text.char_indices().filter_map(sign)
 }
 
 #[cfg(test)]
@@ -132,5 +177,17 @@ mod tests {
         );
         assert_eq!(broken("a + bb*cc*dd", 0, 8), "a\n+ bb*cc*\n  dd");
         assert_eq!(broken("no_place_to_break_at", 0, 8), "no_place_to_break_at");
+    }
+
+    #[test]
+    fn a_sum_in_a_product_stays_in_it() {
+        assert_eq!(
+            broken("a*rise(first*second + third)*b + last", 0, 20),
+            "a*rise(first*second\n    + third)*b\n+ last"
+        );
+        assert_eq!(
+            broken("rise(a + b) + \"c + d\"", 0, 12),
+            "rise(a + b)\n+ \"c + d\""
+        );
     }
 }

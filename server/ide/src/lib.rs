@@ -62,7 +62,7 @@ pub use condition::{broken, legible, said};
 pub use decided::{Decided, Standing};
 pub use folding::{Fold, folds_in_ladder, folds_in_spec};
 pub use hints::{Hint, hints_in_ladder, hints_in_spec};
-pub use hover::{Block, Hover, hover_in_ladder, hover_in_spec, hover_of_variable};
+pub use hover::{Block, Hover, Rungs, hover_in_ladder, hover_in_spec, hover_of_variable};
 pub use ladder::Ladder;
 pub use layout::{Extent, lay_out_ladder, lay_out_spec};
 pub use lenses::{Count, Lens, count, lenses_in_ladder, lenses_in_spec};

@@ -92,6 +92,13 @@ export class Editor {
     return plain((await this.#hover.allInnerTexts()).join("\n"));
   }
 
+  /** Goes where a link in the hover at the cursor leads. */
+  async followFromHover(words) {
+    const link = this.#hover.locator("a", { hasText: words }).first();
+    await this.pressUntil(`a hover with a link ${words}`, () => this.#askForHover(), link);
+    await link.click();
+  }
+
   /** Whether the cursor's place has no hover, after the time that one would take. */
   async noHover() {
     await this.#askForHover();

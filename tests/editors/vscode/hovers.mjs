@@ -19,6 +19,16 @@ export function hovers(at) {
     await editor.picture("hover");
   });
 
+  test("a contact's hover leads to the rung that drives it", async () => {
+    const { editor, workbench } = at;
+    const tank = new Copy(workbench.folder, "driven", fixture(neutralization.file));
+    await editor.open(tank.ladder);
+    await editor.goTo(...tank.place("/v3 * ls2", 1));
+    await editor.followFromHover(/rung 2/);
+    const [line] = tank.place("-> v3");
+    await editor.isAt(line, 1);
+  });
+
   const export_ = realFile(real.file);
   test("a coil inside a real L5X export tells its conditions", { skip: export_ ? false : "no corpus" }, async () => {
     const { editor, workbench } = at;

@@ -105,6 +105,20 @@ pub(super) fn neighbours(
     fields
 }
 
+/// What a value of a step register is, in a line; `None` of any other state.
+pub(super) fn value_summary(state: &Name, ladder: &Ladder) -> Option<String> {
+    let mut registers = ladder.analysis.registers.iter();
+    let title = registers.find_map(|register| {
+        let mut states = register.states.iter();
+        let found = states.find(|it| register.state_name(it.value) == *state)?;
+        Some(found.title.clone())
+    })?;
+    Some(match title {
+        Some(title) => format!("{title}: value of a step register"),
+        None => "value of a step register".to_owned(),
+    })
+}
+
 /// Neighbours that are named on each side.
 const MOST_NEIGHBOURS: usize = 8;
 

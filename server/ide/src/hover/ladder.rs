@@ -5,8 +5,9 @@ use logic::{Budget, Name};
 use recovery::conditions::Place;
 use source::Span;
 
-use super::{Block, Hover, WIDTH, coil};
-use crate::{Ladder, Mention, Spec, Usage, describe, element, legible};
+use super::{Block, Hover, Rungs, WIDTH, coil};
+use crate::navigate::state_of;
+use crate::{Ladder, Spec, Usage, describe, element, legible};
 
 /// What is known of the thing at the byte `offset` of a ladder: a variable, a
 /// box or a rung.
@@ -24,8 +25,7 @@ pub fn hover_in_ladder(
         && !is_plain(element)
         && mention.is_none_or(|it| it.place.is_some())
     {
-        let whole = rung.place(element.within);
-        return Some(of_box(ladder, place, element, whole, budget));
+        return Some(of_box(ladder, spec, place, element, budget));
     }
     if let Some(mention) = mention {
         return Some(of_variable(
@@ -94,12 +94,14 @@ pub(super) fn of_variable(
                 .filter_map(|it| it.place)
                 .collect();
             drawn.dedup_by_key(|place| (place.routine, place.rung));
+            let drives = rungs(ladder, "Driven by", drawn.iter().copied());
             blocks.extend(
                 drawn
                     .iter()
                     .take(MOST_DRAWN)
                     .filter_map(|&place| drawing(ladder, place)),
             );
+            blocks.extend(drives);
             Hover {
                 span,
                 name: name.to_string(),
@@ -163,28 +165,27 @@ fn of_input(ladder: &Ladder, name: &Name, span: Span) -> Hover {
 
 /// The rungs that read a variable.
 fn readers(ladder: &Ladder, name: &Name) -> Option<Block> {
-    let read = |it: &&Mention| it.usage == Usage::Read;
-    let mut rungs: Vec<String> = ladder
-        .names()
-        .of(name)
-        .filter(read)
-        .filter_map(|it| rung_title(ladder, it.place?))
-        .collect();
-    rungs.dedup();
-    let count = rungs.len();
-    if count == 0 {
-        return None;
-    }
-    rungs.truncate(MOST_READERS);
-    let more = match count - rungs.len() {
-        0 => String::new(),
-        more => format!(" and {more} more"),
-    };
-    Some(Block::Text(format!("Read by {}{more}", rungs.join(", "))))
+    let read = ladder.names().of(name).filter(|it| it.usage == Usage::Read);
+    rungs(ladder, "Read by", read.filter_map(|it| it.place))
 }
 
-/// Rungs that are named of those that read a variable.
-const MOST_READERS: usize = 6;
+/// The rungs at these places; `None` if there are none.
+fn rungs(
+    ladder: &Ladder,
+    label: &'static str,
+    places: impl Iterator<Item = Place>,
+) -> Option<Block> {
+    let mut named: Vec<(String, Span)> = places
+        .filter_map(|place| Some((rung_title(ladder, place)?, ladder.rung(place)?.1.span)))
+        .collect();
+    named.dedup();
+    let more = named.len().saturating_sub(MOST_NAMED);
+    named.truncate(MOST_NAMED);
+    (!named.is_empty()).then_some(Block::Rungs(Rungs { label, named, more }))
+}
+
+/// Rungs that are named of those that read or write a variable.
+const MOST_NAMED: usize = 6;
 
 /// A rung as people name it.
 pub(crate) fn rung_title(ladder: &Ladder, place: Place) -> Option<String> {
@@ -206,8 +207,18 @@ fn first_line(text: &str) -> &str {
         .unwrap_or_default()
 }
 
-/// A box: what it is, and the rung it stands on.
-fn of_box(ladder: &Ladder, place: Place, element: &Element, whole: Span, budget: &Budget) -> Hover {
+/// A box: what it is, and the rung it stands on. One that compares with or
+/// writes a value of a step register is about that state.
+fn of_box(
+    ladder: &Ladder,
+    spec: Option<&Spec>,
+    place: Place,
+    element: &Element,
+    budget: &Budget,
+) -> Hover {
+    let whole = ladder
+        .rung(place)
+        .map_or(Span::default(), |(_, rung)| rung.place(element.within));
     let text = ladder.text.get(whole.range()).unwrap_or_default();
     let conditions = &ladder.analysis.conditions;
     let power = ladder.power_at(place, budget);
@@ -215,12 +226,21 @@ fn of_box(ladder: &Ladder, place: Place, element: &Element, whole: Span, budget:
     if let Some(power) = power.and_then(|it| legible(&it, conditions, budget)) {
         blocks.push(Block::Fields(vec![("powered", power)]));
     }
+    let state = state_of(ladder, &element.kind);
+    let mut summary = describe::summary(&element.kind);
+    if let Some(state) = &state {
+        summary = coil::value_summary(state, ladder).unwrap_or(summary);
+        blocks.push(Block::Fields(coil::neighbours(state, ladder, spec, budget)));
+    }
     blocks.extend(drawing(ladder, place));
     Hover {
         span: whole,
-        name: describe::name(&element.kind, text),
+        name: match state {
+            Some(state) => state.to_string(),
+            None => describe::name(&element.kind, text),
+        },
         address: None,
-        summary: describe::summary(&element.kind),
+        summary,
         blocks,
     }
 }

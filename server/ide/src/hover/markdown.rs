@@ -17,6 +17,18 @@ pub(super) fn escaped(text: &str) -> String {
     out
 }
 
+/// `text` as the words of a link.
+pub(super) fn in_brackets(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars() {
+        if c.is_ascii_punctuation() && !"().,:;-".contains(c) {
+            out.push('\\');
+        }
+        out.push(c);
+    }
+    out
+}
+
 /// Whether Markdown could take the sign at `at` for one of its own.
 fn means_something(signs: &[char], at: usize) -> bool {
     let (before, after) = (&signs[..at], &signs[at + 1..]);
@@ -84,6 +96,36 @@ mod tests {
         }
     }
 
+    #[test]
+    fn rungs_are_links_where_they_have_an_address() {
+        let rungs = crate::hover::Rungs {
+            label: "Driven by",
+            named: vec![
+                ("rung 0 of Tank (Fill [1])".to_owned(), source::Span::at(5)),
+                ("rung 1 of Tank".to_owned(), source::Span::at(70)),
+            ],
+            more: 3,
+        };
+        let hover = Hover {
+            span: source::Span::at(0),
+            name: "v1".to_owned(),
+            address: None,
+            summary: String::new(),
+            blocks: vec![crate::Block::Rungs(rungs)],
+        };
+        let link =
+            |span: source::Span| (span.start < 10).then(|| "file:///tank.ladder#L1".to_owned());
+        assert_eq!(
+            hover.markdown(&link),
+            "**v1**\n\nDriven by [rung 0 of Tank (Fill \\[1\\])](file:///tank.ladder#L1), \
+             rung 1 of Tank and 3 more"
+        );
+        assert_eq!(
+            hover.plain(),
+            "v1\n\nDriven by rung 0 of Tank (Fill [1]), rung 1 of Tank and 3 more"
+        );
+    }
+
     /// What is shown of `markdown`: paragraphs of plain words, the first of
     /// which may begin with a heading.
     fn shown(markdown: &str) -> String {
@@ -121,7 +163,7 @@ mod tests {
                 "" => name,
                 _ => format!("{name}\n{summary}"),
             };
-            prop_assert_eq!(shown(&hover.markdown()), wanted);
+            prop_assert_eq!(shown(&hover.markdown(&|_| None)), wanted);
             prop_assert_eq!(shown(&escaped(summary)), summary);
         }
     }

@@ -12,7 +12,7 @@ mod spec;
 use source::Span;
 
 use crate::condition::broken;
-use markdown::escaped;
+use markdown::{escaped, in_brackets};
 
 pub use ladder::{hover_in_ladder, hover_of_variable};
 pub use spec::hover_in_spec;
@@ -40,13 +40,39 @@ pub enum Block {
     Fields(Vec<(&'static str, String)>),
     /// A sentence or two.
     Text(String),
+    /// Rungs of the ladder, and what they do.
+    Rungs(Rungs),
     /// Lines of characters as they are.
     Drawing(String),
 }
 
+/// Rungs that a hover speaks of.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Rungs {
+    /// What they do.
+    pub label: &'static str,
+    /// What each is called, and where it is in the ladder.
+    pub named: Vec<(String, Span)>,
+    /// How many more there are.
+    pub more: usize,
+}
+
+impl Rungs {
+    fn said(&self, name: impl Fn(&str, Span) -> String) -> String {
+        let named = self.named.iter().map(|(title, span)| name(title, *span));
+        let named: Vec<String> = named.collect();
+        let more = match self.more {
+            0 => String::new(),
+            more => format!(" and {more} more"),
+        };
+        format!("{} {}{more}", self.label, named.join(", "))
+    }
+}
+
 impl Hover {
-    /// The hover in Markdown.
-    pub fn markdown(&self) -> String {
+    /// The hover in Markdown. `link` gives the address of a place in the ladder,
+    /// where rungs shall have one.
+    pub fn markdown(&self, link: &dyn Fn(Span) -> Option<String>) -> String {
         let mut out = format!("**{}**", escaped(&self.name));
         if let Some(address) = &self.address {
             out += &format!(" `{address}`");
@@ -57,6 +83,13 @@ impl Hover {
         for part in parts(&self.blocks) {
             out += &match part {
                 Part::Words(words) => format!("\n\n{}", escaped(words)),
+                Part::Rungs(rungs) => {
+                    let said = rungs.said(|title, span| match link(span) {
+                        Some(address) => format!("[{}]({address})", in_brackets(title)),
+                        None => escaped(title),
+                    });
+                    format!("\n\n{said}")
+                }
                 Part::Lines(lines) => format!("\n\n```text\n{lines}\n```"),
             };
         }
@@ -75,6 +108,10 @@ impl Hover {
         for part in parts(&self.blocks) {
             out += &match part {
                 Part::Words(words) => format!("\n\n{words}"),
+                Part::Rungs(rungs) => {
+                    let said = rungs.said(|title, _| title.to_owned());
+                    format!("\n\n{said}")
+                }
                 Part::Lines(lines) => format!("\n\n{lines}"),
             };
         }
@@ -86,6 +123,8 @@ impl Hover {
 enum Part<'b> {
     /// Words, to be broken where they are shown.
     Words(&'b str),
+    /// The same of rungs.
+    Rungs(&'b Rungs),
     /// Lines as they are.
     Lines(String),
 }
@@ -93,19 +132,21 @@ enum Part<'b> {
 /// The parts of a hover. What stands in lines is one part, with the same columns
 /// and blank lines between, up to the next words.
 fn parts(blocks: &[Block]) -> Vec<Part<'_>> {
-    let is_words = |block: &Block| matches!(block, Block::Text(_));
+    let is_words = |block: &Block| matches!(block, Block::Text(_) | Block::Rungs(_));
     let runs = blocks.chunk_by(|a, b| !is_words(a) && !is_words(b));
     let shown = runs.map(|run| match run {
         [Block::Text(words)] => Part::Words(words),
+        [Block::Rungs(rungs)] => Part::Rungs(rungs),
         run => {
             let labels = run.iter().flat_map(|block| match block {
                 Block::Fields(fields) => fields.as_slice(),
                 _ => &[],
             });
             let start = labels.map(|(label, _)| label.len()).max().unwrap_or(0) + 2;
-            let lines = run.iter().map(|block| match block {
-                Block::Fields(fields) => columns(fields, start),
-                Block::Text(lines) | Block::Drawing(lines) => lines.clone(),
+            let lines = run.iter().filter_map(|block| match block {
+                Block::Fields(fields) => Some(columns(fields, start)),
+                Block::Drawing(lines) => Some(lines.clone()),
+                Block::Text(_) | Block::Rungs(_) => None,
             });
             Part::Lines(lines.collect::<Vec<_>>().join("\n\n"))
         }

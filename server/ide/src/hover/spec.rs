@@ -143,20 +143,12 @@ fn of_state(
     if ladder.analysis.conditions.find(state).is_some() {
         return Some(of_variable(ladder, Some(spec), state, span, budget));
     }
-    let mut registers = ladder.analysis.registers.iter();
-    let title = registers.find_map(|register| {
-        let mut states = register.states.iter();
-        let found = states.find(|it| register.state_name(it.value) == *state)?;
-        Some(found.title.clone())
-    })?;
+    let summary = coil::value_summary(state, ladder)?;
     Some(Hover {
         span,
         name: state.to_string(),
         address: None,
-        summary: match title {
-            Some(title) => format!("{title}: value of a step register"),
-            None => "value of a step register".to_owned(),
-        },
+        summary,
         blocks: vec![Block::Fields(coil::neighbours(
             state,
             ladder,

@@ -113,7 +113,7 @@ pub fn documentation(query: &Query, remembered: &Remembered) -> Option<Documenta
     let spec = pair.spec().map(|it| &**it);
     let hover = ide::hover_of_variable(pair.ladder()?, spec, &name, &query.budget);
     let (kind, value) = match query.world.abilities.markdown_in_completions {
-        true => (MarkupKind::Markdown, hover.markdown()),
+        true => (MarkupKind::Markdown, hover.markdown(&|_| None)),
         false => (MarkupKind::PlainText, hover.plain()),
     };
     Some(Documentation::MarkupContent(MarkupContent { kind, value }))
