@@ -4,6 +4,7 @@ mod scan_rungs;
 
 use ladder::Program;
 use ladder::flow::{Execution, Guard, Order, Place, execution};
+use ladder::scan::Machine;
 use scan_rungs::{program, rungs};
 use source::Code;
 
@@ -264,4 +265,23 @@ fn guard_sets_are_shared_and_each_extends_an_earlier_one() {
             assert!(order.visits[by.visit].guards < visit.guards);
         }
     }
+}
+
+#[test]
+fn a_file_that_holds_only_definitions_is_solved_as_one_instance_of_each() {
+    let block = "input a\noutput q\nroutine Valve block\nrung: a -> q\n";
+    let reading = ladder::read(block.as_bytes());
+    let mut machine = Machine::new(&reading.program);
+    machine.set_input("a", true);
+    machine.scan(10);
+    assert!(machine.is_on("q"));
+
+    // With a main routine beside it, only its instances would be solved.
+    let beside = format!("rung: a -> m\n{block}");
+    let reading = ladder::read(beside.as_bytes());
+    let mut machine = Machine::new(&reading.program);
+    machine.set_input("a", true);
+    machine.scan(10);
+    assert!(machine.is_on("m"));
+    assert!(!machine.is_on("q"));
 }

@@ -179,3 +179,18 @@ fn a_scenario_is_known_by_what_it_says() {
         assert!(!is_scenario(text), "{text}");
     }
 }
+
+/// Reading and laying out cost as much as there is to read: counted, not
+/// timed.
+#[test]
+fn work_grows_with_the_text_and_no_faster() {
+    let allocations = |lines: usize| {
+        let text = "on s, Level = 5 => only on v1, off \"a b\" // go\n".repeat(lines);
+        let count = allocation_counter::measure(|| {
+            std::hint::black_box((read(&text), format(&text), is_scenario(&text)));
+        });
+        count.bytes_total
+    };
+    let (short, long) = (allocations(500), allocations(5_000));
+    assert!(long < 15 * short, "{short} and {long} bytes");
+}

@@ -23,11 +23,16 @@ pub(super) fn compile(grafcet: &Grafcet) -> Net {
     let grafcet = &grafcet.instantiated();
     let mut compiler = Compiler::new(grafcet);
     compiler.parts();
+    let is_continuous = |it: &&Action| matches!(it.kind, ActionKind::Continuous { .. });
     for (part, (_, chart)) in grafcet.charts().enumerate() {
         compiler.transitions(chart, part.checked_sub(1));
-        for action in &chart.actions {
+        for action in chart.actions.iter().filter(|it| !is_continuous(it)) {
             compiler.action(action);
         }
+    }
+    compiler.net.sampled_first = compiler.net.edges.len();
+    for action in grafcet.actions().filter(is_continuous) {
+        compiler.action(action);
     }
     compiler
         .net
@@ -233,7 +238,9 @@ impl<'g> Compiler<'g> {
         let Some(&step) = self.net.step_names.get(&action.step) else {
             return;
         };
+        let first_edge = self.net.edges.len();
         let condition = self.all_of(action.whole_condition().as_ref());
+        let edges = first_edge..self.net.edges.len();
         if let ActionKind::Forcing(situation) = &action.kind {
             self.order(action, step, condition, situation);
             return;
@@ -264,7 +271,7 @@ impl<'g> Compiler<'g> {
                     effect,
                 });
             }
-            _ => publishing::add(&mut self.net, variable, step, condition),
+            _ => publishing::add(&mut self.net, variable, step, condition, edges),
         }
     }
 

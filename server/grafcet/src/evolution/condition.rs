@@ -77,10 +77,14 @@ impl Condition {
         }
     }
 
-    /// Calls `visit` with every variable whose value is read now; those that
-    /// only an edge looks at were read at the start of the scan.
-    pub(super) fn each_variable(&self, visit: &mut impl FnMut(usize)) {
+    /// Calls `visit` with every variable that is read, by edges too.
+    pub(super) fn each_variable(&self, edges: &[Edge], visit: &mut impl FnMut(usize)) {
         match self {
+            Self::Edge(at) => {
+                if let Some(edge) = edges.get(*at) {
+                    edge.of.each_variable(edges, visit);
+                }
+            }
             Self::Variable(at) => visit(*at),
             Self::Comparison { left, right, .. } => {
                 for side in [left, right] {
@@ -89,11 +93,13 @@ impl Condition {
                     }
                 }
             }
-            Self::Not(inner) => inner.each_variable(visit),
+            Self::Not(inner) => inner.each_variable(edges, visit),
             Self::All(parts) | Self::Any(parts) => {
-                parts.iter().for_each(|part| part.each_variable(visit));
+                parts
+                    .iter()
+                    .for_each(|part| part.each_variable(edges, visit));
             }
-            Self::Constant(_) | Self::Step(_) | Self::Edge(_) | Self::Elapsed { .. } => {}
+            Self::Constant(_) | Self::Step(_) | Self::Elapsed { .. } => {}
         }
     }
 }

@@ -13,19 +13,25 @@ pub(super) struct Fired {
     pub(super) has_effect: bool,
 }
 
-/// Samples every edge: which of them occur, compared with what they looked at
-/// in the scan before. Before the first scan all of it was 0.
-pub(super) fn sample(net: &Net, state: &mut State, now: u64) -> Vec<bool> {
-    let mut occurring = vec![false; net.edges.len()];
-    for (at, edge) in net.edges.iter().enumerate() {
-        let is_on = edge.of.holds(&state.view(&occurring, now));
+/// Samples the edges at these places: which of them occur, compared with what
+/// they looked at when they were sampled last. Before the first scan all of it
+/// was 0.
+pub(super) fn sample(
+    net: &Net,
+    state: &mut State,
+    places: impl IntoIterator<Item = usize>,
+    occurring: &mut [bool],
+    now: u64,
+) {
+    for at in places {
+        let edge = &net.edges[at];
+        let is_on = edge.of.holds(&state.view(occurring, now));
         let was_on = std::mem::replace(&mut state.looked_at[at], is_on);
         occurring[at] = match edge.is_falling {
             true => was_on && !is_on,
             false => is_on && !was_on,
         };
     }
-    occurring
 }
 
 /// Clears all transitions that can be, together, each judged by the situation

@@ -107,7 +107,7 @@ impl Machine {
         let edges = self.begin_scan();
         match self.stabilise(&edges) {
             Ok(()) => {
-                publishing::publish(&self.net, &mut self.state, &edges, self.now);
+                publishing::publish(&self.net, &mut self.state, self.now);
                 self.scans += 1;
                 Ok(())
             }
@@ -127,7 +127,8 @@ impl Machine {
         if self.scans == 0 {
             state.since.fill(now);
         }
-        let edges = firing::sample(net, state, now);
+        let mut edges = vec![false; net.edges.len()];
+        firing::sample(net, state, 0..net.sampled_first, &mut edges, now);
         storing::on_events(net, state, &edges, now);
         // The initial situation is activated by the first scan.
         let active = match self.scans {

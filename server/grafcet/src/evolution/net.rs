@@ -25,6 +25,9 @@ pub(super) struct Net {
     pub(super) transitions: Vec<Transition>,
     /// Inner edges stand before the edges that look at them.
     pub(super) edges: Vec<Edge>,
+    /// How many of them are sampled when a scan begins. The others stand in
+    /// conditions of continuous actions, and are sampled when these are.
+    pub(super) sampled_first: usize,
     pub(super) stored: Vec<Stored>,
     /// Outputs with continuous actions, those first that others depend on.
     pub(super) continuous: Vec<Vec<Continuous>>,
@@ -111,6 +114,9 @@ pub(super) struct Continuous {
     pub(super) variable: usize,
     /// The step and what else must hold.
     pub(super) acts: Vec<(usize, Condition)>,
+    /// The edges in what must hold, which compare one stable situation with
+    /// the next.
+    pub(super) edges: Vec<usize>,
 }
 
 /// A forcing order.

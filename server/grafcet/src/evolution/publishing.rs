@@ -6,20 +6,33 @@
 //! that depend on each other in a circle see each other as they were last
 //! published.
 
+use std::ops::Range;
+
 use petgraph::algo::tarjan_scc;
 use petgraph::graph::{DiGraph, NodeIndex};
 
 use super::condition::Condition;
+use super::firing;
 use super::net::{Continuous, Net, State};
 
-/// Adds a continuous action.
-pub(super) fn add(net: &mut Net, variable: usize, step: usize, condition: Condition) {
+/// Adds a continuous action, in whose condition these edges stand.
+pub(super) fn add(
+    net: &mut Net,
+    variable: usize,
+    step: usize,
+    condition: Condition,
+    edges: Range<usize>,
+) {
     let mut all = net.continuous.iter_mut().flatten();
     match all.find(|output| output.variable == variable) {
-        Some(output) => output.acts.push((step, condition)),
+        Some(output) => {
+            output.acts.push((step, condition));
+            output.edges.extend(edges);
+        }
         None => net.continuous.push(vec![Continuous {
             variable,
             acts: vec![(step, condition)],
+            edges: edges.collect(),
         }]),
     }
 }
@@ -36,7 +49,7 @@ pub(super) fn arrange(net: &mut Net) {
     }
     for (at, output) in outputs.iter().enumerate() {
         for (_, condition) in &output.acts {
-            condition.each_variable(&mut |variable| {
+            condition.each_variable(&net.edges, &mut |variable| {
                 if let Some(Some(place)) = places.get(variable) {
                     graph.add_edge(NodeIndex::new(at), *place, ());
                 }
@@ -54,11 +67,15 @@ pub(super) fn arrange(net: &mut Net) {
         .collect();
 }
 
-/// Publishes every output that has continuous actions. `edges` are those that
-/// occurred in this scan.
-pub(super) fn publish(net: &Net, state: &mut State, edges: &[bool], now: u64) {
+/// Publishes every output that has continuous actions.
+pub(super) fn publish(net: &Net, state: &mut State, now: u64) {
+    let mut edges = vec![false; net.edges.len()];
     for circle in &net.continuous {
-        let view = state.view(edges, now);
+        let places = circle
+            .iter()
+            .flat_map(|output| output.edges.iter().copied());
+        firing::sample(net, state, places, &mut edges, now);
+        let view = state.view(&edges, now);
         let acts = |output: &Continuous| {
             let mut acts = output.acts.iter();
             acts.any(|(step, condition)| view.is_active(*step) && condition.holds(&view))

@@ -59,6 +59,30 @@ fn edges_in_conditions_of_continuous_actions_last_for_the_scan() {
 }
 
 #[test]
+fn edges_in_conditions_of_continuous_actions_compare_stable_situations() {
+    check(
+        "Step A, B, C
+         Transition t1, t2
+         Input a
+         Output x, y, z
+         Marking A, C
+         Transitions:
+         t1: A*a |- @B
+         t2: B*/a |- @A
+         Steps:
+         C: a |- x
+         C: rise(x) |- y
+         C: fall(B) |- z",
+        // What has just been published, and the step that has just been left.
+        " -> A C |
+         a -> B C | x y
+         -> B C | x
+         /a -> A C | z
+         -> A C |",
+    );
+}
+
+#[test]
 fn receptivities_read_outputs_as_they_were_published() {
     check(
         "Step A, B, C

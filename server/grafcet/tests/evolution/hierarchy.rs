@@ -56,6 +56,27 @@ fn a_macro_step_may_begin_with_another() {
 }
 
 #[test]
+fn nothing_is_cleared_in_an_expansion_before_its_macro_step_is_entered() {
+    check(
+        "Step A
+         Macro M(Load)
+         Transition t1
+         Input a, b
+         Marking A
+         Transitions:
+         t1: A*a |- @M
+
+         Expansion Load(E, F)
+         Step E, F
+         Transition source
+         Transitions:
+         source: b |- @F",
+        "b -> A |
+         a -> M E F |",
+    );
+}
+
+#[test]
 fn enclosed_grafcets_live_while_their_step_does() {
     check(
         "Step A
@@ -104,6 +125,23 @@ fn an_initial_enclosing_step_starts_with_the_initial_steps_of_its_parts() {
          Activation R",
         // H has no initial step, so its link counts.
         " -> E Q R |",
+    );
+}
+
+#[test]
+fn what_an_initial_enclosing_step_starts_may_enclose_too() {
+    check(
+        "Enclosing E(G)
+         Marking E
+
+         Partial H
+         Step R
+         Activation R
+
+         Partial G
+         Enclosing F(H)
+         Activation F",
+        " -> E R F |",
     );
 }
 
@@ -221,8 +259,15 @@ fn orders_may_force_those_who_give_orders() {
          Q: |- force H{S}
 
          Partial H
-         Step R, S
-         Marking R",
+         Step R, S, T
+         Output x
+         Transition u
+         Marking R
+         Transitions:
+         u: R*stop |- @T
+         Steps:
+         T: |- set x",
+        // All of it within one evolution: T is never active.
         " -> A P R |
          stop -> B Q S |",
     );

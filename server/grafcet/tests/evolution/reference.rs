@@ -20,6 +20,9 @@ pub struct Reference<'c> {
     kept: BTreeMap<Name, i64>,
     since: BTreeMap<Name, u64>,
     looked_at: Edges,
+    /// What the edges in conditions of continuous actions looked at, for each
+    /// output.
+    shown: BTreeMap<Name, Edges>,
     now: u64,
     is_first: bool,
 }
@@ -76,6 +79,7 @@ impl<'c> Reference<'c> {
             kept: BTreeMap::new(),
             since: BTreeMap::new(),
             looked_at: BTreeMap::new(),
+            shown: BTreeMap::new(),
             now: 0,
             is_first: true,
         }
@@ -137,7 +141,7 @@ impl<'c> Reference<'c> {
                 && self.kept == before.kept
                 && self.since == before.since;
             if is_same && (nth > 0 || fired.is_empty()) {
-                self.publish(&edges);
+                self.publish();
                 return Some(());
             }
         }
@@ -161,15 +165,12 @@ impl<'c> Reference<'c> {
             edges_of(&transition.receptivity, &mut all);
         }
         for action in &self.chart.actions {
-            action
-                .condition
-                .iter()
-                .for_each(|it| edges_of(it, &mut all));
-            if let ActionKind::Stored {
-                on: Trigger::Event(event),
-                ..
-            } = &action.kind
-            {
+            let ActionKind::Stored { on, .. } = &action.kind else {
+                continue;
+            };
+            let condition = action.condition.iter();
+            condition.for_each(|it| edges_of(it, &mut all));
+            if let Trigger::Event(event) = on {
                 edges_of(&Expr::Atom(Atom::Rise(Box::new(event.clone()))), &mut all);
             }
         }
@@ -178,21 +179,7 @@ impl<'c> Reference<'c> {
                 self.since.insert(step.clone(), self.now);
             }
         }
-        let mut occurring = Edges::new();
-        let mut looked_at = Edges::new();
-        for edge in all {
-            let (Atom::Rise(inner) | Atom::Fall(inner)) = &edge else {
-                unreachable!("only edges are collected");
-            };
-            let is_on = self.moment(&occurring).holds(inner);
-            let was_on = self.looked_at.get(&edge).copied().unwrap_or(false);
-            let occurs = match edge {
-                Atom::Rise(_) => is_on && !was_on,
-                _ => was_on && !is_on,
-            };
-            occurring.insert(edge.clone(), occurs);
-            looked_at.insert(edge, is_on);
-        }
+        let (occurring, looked_at) = occurring(all, &self.looked_at, self.moment(&Edges::new()));
         self.looked_at = looked_at;
         occurring
     }
@@ -267,53 +254,64 @@ impl<'c> Reference<'c> {
         let mut open = vec![Name::from(output)];
         while let Some(output) = open.pop() {
             for condition in self.acts_on(&output).filter_map(|it| it.condition.as_ref()) {
-                condition.each_atom(&mut |atom| {
-                    let names = match atom {
-                        Atom::Variable(name) => vec![name.clone()],
-                        Atom::Comparison(it) => vec![it.left.clone(), it.right.clone()],
-                        _ => Vec::new(),
-                    };
-                    for name in names {
-                        if self.acts_on(&name).next().is_some() && found.insert(name.clone()) {
-                            open.push(name);
-                        }
+                for name in names_in(condition) {
+                    if self.acts_on(&name).next().is_some() && found.insert(name.clone()) {
+                        open.push(name);
                     }
-                });
+                }
             }
         }
         found
     }
 
-    fn publish(&mut self, edges: &Edges) {
+    fn publish(&mut self) {
         let mut outputs: BTreeSet<Name> = BTreeSet::new();
         for action in &self.chart.actions {
             if matches!(action.kind, ActionKind::Continuous { .. }) {
                 outputs.insert(action.output.clone());
             }
         }
-        let mut published = BTreeMap::new();
+        let (mut published, mut shown) = (BTreeMap::new(), BTreeMap::new());
         for output in &outputs {
-            self.published(output, edges, &mut published);
+            self.published(output, &mut published, &mut shown);
         }
         self.values.extend(published);
+        self.shown = shown;
     }
 
     /// Works one output out, after those that it depends on and that do not
     /// depend on it.
-    fn published(&self, output: &Name, edges: &Edges, published: &mut BTreeMap<Name, i64>) {
+    fn published(
+        &self,
+        output: &Name,
+        published: &mut BTreeMap<Name, i64>,
+        shown: &mut BTreeMap<Name, Edges>,
+    ) {
         if published.contains_key(output) {
             return;
         }
         let mut values = self.values.clone();
         for other in self.depends_on(output) {
             if !self.depends_on(&other).contains(output) {
-                self.published(&other, edges, published);
+                self.published(&other, published, shown);
                 values.insert(other.clone(), published[&other]);
             }
         }
+        let mut edges = Vec::new();
+        for condition in self.acts_on(output).filter_map(|it| it.condition.as_ref()) {
+            edges_of(condition, &mut edges);
+        }
+        let none = Edges::new();
         let moment = Moment {
             values: &values,
-            ..self.moment(edges)
+            ..self.moment(&none)
+        };
+        let before = self.shown.get(output).unwrap_or(&none);
+        let (edges, looked_at) = occurring(edges, before, moment);
+        shown.insert(output.clone(), looked_at);
+        let moment = Moment {
+            values: &values,
+            ..self.moment(&edges)
         };
         let acts = self.acts_on(output).any(|action| {
             let ActionKind::Continuous { delay, limit } = &action.kind else {
@@ -333,6 +331,41 @@ impl<'c> Reference<'c> {
         let kept = self.kept.get(output).copied().unwrap_or(0);
         published.insert(output.clone(), i64::from(acts || kept != 0));
     }
+}
+
+/// Which edges occur, and what they look at now.
+fn occurring(edges: Vec<Atom>, before: &Edges, moment: Moment<'_>) -> (Edges, Edges) {
+    let (mut occurring, mut looked_at) = (Edges::new(), Edges::new());
+    for edge in edges {
+        let (Atom::Rise(inner) | Atom::Fall(inner)) = &edge else {
+            unreachable!("only edges are collected");
+        };
+        let is_on = Moment {
+            edges: &occurring,
+            ..moment
+        }
+        .holds(inner);
+        let was_on = before.get(&edge).copied().unwrap_or(false);
+        let occurs = match edge {
+            Atom::Rise(_) => is_on && !was_on,
+            _ => was_on && !is_on,
+        };
+        occurring.insert(edge.clone(), occurs);
+        looked_at.insert(edge, is_on);
+    }
+    (occurring, looked_at)
+}
+
+/// The variables in an expression, those in edges too.
+fn names_in(expr: &Expr) -> Vec<Name> {
+    let mut names = Vec::new();
+    expr.each_atom(&mut |atom| match atom {
+        Atom::Variable(name) => names.push(name.clone()),
+        Atom::Comparison(it) => names.extend([it.left.clone(), it.right.clone()]),
+        Atom::Rise(inner) | Atom::Fall(inner) => names.extend(names_in(inner)),
+        Atom::Elapsed { .. } => {}
+    });
+    names
 }
 
 /// The edges in an expression, inner ones before those that look at them.

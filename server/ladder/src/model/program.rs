@@ -67,6 +67,13 @@ impl Program {
         }
     }
 
+    /// Whether the file holds nothing but definitions of blocks. Then they are
+    /// what there is to solve, as if there were one instance of each.
+    pub fn is_only_definitions(&self) -> bool {
+        let mut with_rungs = self.routines.iter().filter(|it| !it.rungs.is_empty());
+        with_rungs.all(|routine| routine.role == Role::Definition)
+    }
+
     /// All rungs with their routines, in the order of the source.
     pub fn rungs(&self) -> impl Iterator<Item = (&Routine, &Rung)> {
         self.routines

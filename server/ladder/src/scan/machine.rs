@@ -40,6 +40,9 @@ const PER_STRETCH: usize = 64;
 pub struct Machine<'p> {
     program: &'p Program,
     layouts: Vec<Layout>,
+    /// The routines that are solved by themselves: the main ones, or all
+    /// definitions where there is nothing else.
+    roots: Vec<usize>,
     state: State,
     memories: HashMap<Memory, bool>,
     clock: Clock,
@@ -80,7 +83,14 @@ impl<'p> Machine<'p> {
             }
         }
         let unknown = unknown(program, &state);
+        let root_role = match program.is_only_definitions() {
+            true => Role::Definition,
+            false => Role::Main,
+        };
+        let roles = program.routines.iter().map(|routine| routine.role);
+        let roots = roles.enumerate().filter(|(_, role)| *role == root_role);
         Self {
+            roots: roots.map(|(at, _)| at).collect(),
             program,
             layouts: layouts(program).0,
             state,
@@ -108,10 +118,8 @@ impl<'p> Machine<'p> {
         self.overran = false;
         let stretches: usize = self.layouts.iter().map(|one| one.stretches.len()).sum();
         let mut watchdog = SPARE + PER_STRETCH * stretches;
-        for routine in 0..self.program.routines.len() {
-            if self.program.routines[routine].role == Role::Main {
-                self.run(routine, &mut watchdog);
-            }
+        for root in self.roots.clone() {
+            self.run(root, &mut watchdog);
         }
         self.scans += 1;
     }

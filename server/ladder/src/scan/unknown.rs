@@ -14,7 +14,8 @@ use crate::{Block, ElementKind, Network, Operand, PinDirection, Port, Program, R
 pub(super) fn unknown(program: &Program, state: &State) -> BTreeSet<Name> {
     let mut names = BTreeSet::new();
     let routines = program.routines.iter();
-    for routine in routines.filter(|routine| routine.role != Role::Definition) {
+    let all = program.is_only_definitions();
+    for routine in routines.filter(|it| all || it.role != Role::Definition) {
         for rung in &routine.rungs {
             of_network(&rung.network, state, &mut names);
         }

@@ -29,13 +29,14 @@ impl<'p> Names<'p> {
             }
         }
         let mut written: Vec<&Name> = Vec::new();
+        let is_all = program.is_only_definitions();
         for (routine, rung) in program.rungs() {
             for (_, element) in rung.network.elements() {
                 let reads = element.kind.reads().into_iter();
                 let writes = element.kind.writes();
                 known.extend(reads.chain(writes.clone()).map(|operand| &*operand.name));
                 let shows = matches!(element.kind, ElementKind::Coil(_) | ElementKind::Assign(_));
-                if shows && routine.role != Role::Definition {
+                if shows && (is_all || routine.role != Role::Definition) {
                     written.extend(writes.into_iter().map(|operand| &operand.name));
                 }
             }
