@@ -21,7 +21,7 @@ pub fn hover_in_ladder(
     let place = mention.and_then(|it| it.place);
     let place = place.or_else(|| ladder.names().element_at(offset));
     let at = place.and_then(|place| Some((place, element(ladder.program(), place)?)));
-    if let Some((place, (rung, element))) = at
+    if let Some((place, (_, element))) = at
         && !is_plain(element)
         && mention.is_none_or(|it| it.place.is_some())
     {
