@@ -1,7 +1,7 @@
 use std::collections::HashSet;
 use std::sync::{Arc, OnceLock};
 
-use ::ladder::{Format, Program, Reading, Routine, Rung};
+use ::ladder::{Edition, Format, Program, Routine, Rung, reread};
 use logic::{Budget, Function, Name};
 use petgraph::graph::NodeIndex;
 use recovery::conditions::{Place, Walk, powers};
@@ -16,8 +16,8 @@ use crate::Names;
 pub struct Ladder {
     /// The text, as the file or the editor has it.
     pub text: Arc<str>,
-    /// Findings about the text.
-    pub diagnostics: Vec<Diagnostic>,
+    /// The same with what was read from it.
+    edition: Edition,
     /// What was recovered; it holds the program too.
     pub analysis: Analysis,
     names: OnceLock<Names>,
@@ -33,18 +33,19 @@ impl Ladder {
     /// The same, where the ladder was `before` until somebody edited it: what
     /// the edit does not touch is kept.
     pub fn following(before: Option<&Self>, text: Arc<str>, budget: &Budget) -> Self {
-        let Reading {
-            program,
-            diagnostics,
-        } = ::ladder::read(text.as_bytes());
+        let edition = match before {
+            Some(before) => reread(&before.edition, Arc::clone(&text)),
+            None => Edition::new(Arc::clone(&text)),
+        };
+        let program = &edition.reading.program;
         Self {
             names: OnceLock::new(),
             analysis: match before {
-                Some(before) => analyse_after(&before.analysis, &program, budget),
-                None => analyse(&program, budget),
+                Some(before) => analyse_after(&before.analysis, program, budget),
+                None => analyse(program, budget),
             },
             text,
-            diagnostics,
+            edition,
         }
     }
 
@@ -57,6 +58,11 @@ impl Ladder {
     /// Whether everything was worked out to its end.
     pub fn is_whole(&self) -> bool {
         self.analysis.is_whole()
+    }
+
+    /// Findings about the text.
+    pub fn diagnostics(&self) -> &[Diagnostic] {
+        &self.edition.reading.diagnostics
     }
 
     /// The program.
@@ -131,7 +137,7 @@ impl Ladder {
     /// about its text and about its meaning.
     pub fn findings(&self, budget: &Budget) -> Vec<Diagnostic> {
         let conditions = &self.analysis.conditions;
-        let mut found = self.diagnostics.clone();
+        let mut found = self.diagnostics().to_vec();
         if self.is_known() {
             found.extend(recovery::findings::findings(
                 self.program(),

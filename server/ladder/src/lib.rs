@@ -8,18 +8,24 @@
 //! A program is an ordered list of rungs in routines. A rung is a [`Network`]:
 //! power flows from the left rail through contacts and boxes to coils and
 //! boxes. Every element knows the bytes that it was read from.
+//!
+//! Whoever reads a text again and again while it is edited keeps an
+//! [`Edition`] of it: [`reread`] costs what the change costs.
 
 pub mod flow;
 pub mod model;
 
 mod ascii;
+mod edition;
 mod plcopen;
 mod reading;
 mod rockwell;
 pub mod scan;
+mod shift;
 pub mod text;
 mod xml;
 
+pub use edition::{Edition, reread};
 pub use model::*;
 pub use reading::{Reading, read};
 pub use rockwell::{Instruction, instruction, instructions};

@@ -4,10 +4,11 @@ use quick_xml::Reader;
 use quick_xml::events::Event;
 use source::{Diagnostic, Span, codes};
 
+use crate::text::Traces;
 use crate::{Format, Program, ascii, plcopen, rockwell, text};
 
 /// What reading a file gives: always a program, and what there is to say.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Reading {
     /// The program, holding all that could be understood.
     pub program: Arc<Program>,
@@ -22,6 +23,12 @@ impl Reading {
             program: Program::empty(Format::Unknown).into(),
             diagnostics: vec![diagnostic],
         }
+    }
+
+    /// Brings the findings in order.
+    pub(crate) fn sort(&mut self) {
+        self.diagnostics
+            .sort_by_key(|diagnostic| (diagnostic.span, diagnostic.code));
     }
 }
 
@@ -43,27 +50,34 @@ impl Source<'_> {
 /// Reads a ladder program of any known form. What the bytes hold decides
 /// which, never the name of the file.
 pub fn read(bytes: &[u8]) -> Reading {
-    let source = match decode(bytes) {
-        Ok(source) => source,
-        Err(diagnostic) => return Reading::nothing(*diagnostic),
-    };
+    match decode(bytes) {
+        Ok(source) => read_source(source).0,
+        Err(diagnostic) => Reading::nothing(*diagnostic),
+    }
+}
+
+/// Reads a text, and takes down how if it is a `.ladder`.
+pub(crate) fn read_source(source: Source<'_>) -> (Reading, Option<Traces>) {
+    let mut traces = None;
     let mut reading = match detect(source.text) {
         Some(Format::L5x) => rockwell::read_l5x(source),
         Some(Format::L5k) => rockwell::read_l5k(source),
         Some(Format::NeutralText) => rockwell::read_neutral_text(source),
         Some(Format::Plcopen) => plcopen::read(source),
         Some(Format::Ascii) => ascii::read(source),
-        Some(Format::Ladder) => text::read(source),
+        Some(Format::Ladder) => {
+            let (reading, taken) = text::read(source);
+            traces = Some(taken);
+            reading
+        }
         _ => Reading::nothing(not_a_program(source)),
     };
-    reading
-        .diagnostics
-        .sort_by_key(|diagnostic| (diagnostic.span, diagnostic.code));
-    reading
+    reading.sort();
+    (reading, traces)
 }
 
 /// The text of `bytes`, which must be UTF-8.
-fn decode(bytes: &[u8]) -> Result<Source<'_>, Box<Diagnostic>> {
+pub(crate) fn decode(bytes: &[u8]) -> Result<Source<'_>, Box<Diagnostic>> {
     let refuse = |at: usize, what: &str| {
         let diagnostic = Diagnostic::new(codes::ENCODING, Span::at(at), what)
             .help("save the file as UTF-8 and try again");
@@ -114,7 +128,7 @@ fn is_utf16(bytes: &[u8]) -> bool {
 }
 
 /// The form that `text` is in, if it is one that is known.
-fn detect(text: &str) -> Option<Format> {
+pub(crate) fn detect(text: &str) -> Option<Format> {
     let start = text.trim_start();
     if start.starts_with("version https://git-lfs.github.com/spec/") {
         return None;

@@ -38,7 +38,7 @@ fn line_number(text: &str, offset: usize) -> usize {
 fn in_broken_statements(ladder: &Ladder, edits: &[Edit], local: &str) -> Option<usize> {
     let text = &*ladder.text;
     let broken = ladder
-        .diagnostics
+        .diagnostics()
         .iter()
         .filter(|it| it.severity == Severity::Error);
     for finding in broken {

@@ -44,7 +44,7 @@ pub(super) fn up_to_name(
     for (before, after) in before.routines.iter().zip(&program.routines) {
         renaming.routine(before, after)?;
     }
-    match codes(&ladder.diagnostics) == codes(&after.diagnostics) {
+    match codes(ladder.diagnostics()) == codes(&after.diagnostics) {
         true => Ok(()),
         false => Err("the findings about the text".to_owned()),
     }

@@ -40,28 +40,40 @@ use crate::{Format, Program, Role, Routine};
 /// `|` or `+`, and one of them leads a wire to an element. A rail by itself is
 /// an empty ladder; a table of some other text is none.
 pub(crate) fn looks_like_it(text: &str) -> bool {
-    let source = Source { text, base: 0 };
-    let (notes, _) = notes::notes(source);
-    let grid = grid::Grid::new(source, &notes);
-    let lines = grid.rows().filter_map(|row| row.text_from_first_mark());
-    let mut drawn = lines
-        .skip_while(|line| symbols::label(line).is_some())
-        .peekable();
     let is_rail = |line: &String| line.starts_with(['|', '+']);
     let leads_somewhere = |line: &str| {
         line.starts_with("+-") || line.starts_with("|-") && line.contains(['[', '(', '>', '/'])
     };
-    if !drawn.peek().is_some_and(is_rail) {
+    // The first line drawn tells most other texts, however long they are.
+    if let Some(first) = drawn(beginning(text)).first()
+        && !is_rail(first)
+    {
         return false;
     }
-    let mut only_a_rail = true;
-    for line in drawn {
-        if leads_somewhere(&line) {
-            return true;
-        }
-        only_a_rail &= line == "|";
+    let drawn = drawn(text);
+    if !drawn.first().is_some_and(is_rail) {
+        return false;
     }
-    only_a_rail
+    drawn.iter().any(|line| leads_somewhere(line)) || drawn.iter().all(|line| line == "|")
+}
+
+/// The lines of a text from the first that is no label on, without notes and
+/// blanks around them.
+fn drawn(text: &str) -> Vec<String> {
+    let source = Source { text, base: 0 };
+    let (notes, _) = notes::notes(source);
+    let grid = grid::Grid::new(source, &notes);
+    let lines = grid.rows().filter_map(|row| row.text_from_first_mark());
+    let drawn = lines.skip_while(|line| symbols::label(line).is_some());
+    drawn.collect()
+}
+
+/// The first lines of a text, whole ones.
+fn beginning(text: &str) -> &str {
+    const LENGTH: usize = 4096;
+    let piece = text.as_bytes().get(..LENGTH).unwrap_or_default();
+    let end = memchr::memrchr(b'\n', piece).map_or(0, |at| at + 1);
+    text.get(..end).unwrap_or_default()
 }
 
 /// Reads the drawing.

@@ -1,8 +1,11 @@
 use std::collections::hash_map::Entry;
+use std::sync::Arc;
 
 use foldhash::HashMap;
 use logic::Name;
 use source::Span;
+
+use crate::shift::Shift;
 
 /// What a declared variable is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -56,10 +59,17 @@ impl Declaration {
 }
 
 /// The declarations of a program in the order of the source, found by name.
+/// A clone costs nothing.
 #[derive(Clone, Debug, Default)]
 pub struct Declarations {
-    list: Vec<Declaration>,
-    places: HashMap<Name, usize>,
+    list: Arc<Vec<Declaration>>,
+    places: Arc<HashMap<Name, usize>>,
+}
+
+impl PartialEq for Declarations {
+    fn eq(&self, other: &Self) -> bool {
+        self.list == other.list
+    }
 }
 
 impl Declarations {
@@ -68,14 +78,26 @@ impl Declarations {
     pub fn add(&mut self, declaration: Declaration) -> Option<&Declaration> {
         let place = self.list.len();
         let name = declaration.name.clone();
-        self.list.push(declaration);
-        match self.places.entry(name) {
+        let list = Arc::make_mut(&mut self.list);
+        list.push(declaration);
+        match Arc::make_mut(&mut self.places).entry(name) {
             Entry::Vacant(free) => {
                 free.insert(place);
                 None
             }
-            Entry::Occupied(taken) => Some(&self.list[*taken.get()]),
+            Entry::Occupied(taken) => Some(&list[*taken.get()]),
         }
+    }
+
+    /// All of them after an edit of other statements.
+    pub(crate) fn shifted(&self, shift: Shift) -> Self {
+        let mut shifted = self.clone();
+        if shift.by != 0 && self.iter().any(|it| shift.moves(it.span.start)) {
+            for declaration in Arc::make_mut(&mut shifted.list) {
+                declaration.span = shift.span(declaration.span);
+            }
+        }
+        shifted
     }
 
     /// The declaration of `name`.

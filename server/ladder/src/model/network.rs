@@ -120,6 +120,17 @@ impl Network {
         &self.graph
     }
 
+    /// The network of a rung whose origin is now this one.
+    pub(super) fn at(network: &Arc<Self>, origin: u32) -> Arc<Self> {
+        match network.named_from {
+            None => network.clone(),
+            Some(_) => Arc::new(Self {
+                graph: network.graph.clone(),
+                named_from: Some(origin),
+            }),
+        }
+    }
+
     /// The first byte of an element, by which atoms without a name are told
     /// apart: counted from the start of the file where any atom of the network
     /// needs that.

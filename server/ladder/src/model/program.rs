@@ -4,6 +4,7 @@ use logic::Name;
 use source::Span;
 
 use super::{Chart, Declarations, Network, Placed, Within};
+use crate::shift::Shift;
 
 /// Which form a program was read from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -40,7 +41,7 @@ impl Format {
 }
 
 /// A ladder program.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Program {
     /// The form it was read from.
     pub format: Format,
@@ -95,7 +96,7 @@ pub enum Role {
 }
 
 /// A list of rungs that are solved one after the other.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Routine {
     /// `Program/Routine`, or the POU: what answers call `scope`.
     pub scope: Name,
@@ -112,7 +113,7 @@ pub struct Routine {
 }
 
 /// A rung.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Rung {
     /// The number that the source gives it, else its place from 0.
     pub number: u32,
@@ -142,5 +143,50 @@ impl Rung {
     /// written.
     pub fn place(&self, within: Within) -> Span {
         within.from(self.origin)
+    }
+
+    /// The rung after an edit of other statements, as the one of this number.
+    pub(crate) fn shifted(&self, shift: Shift, number: u32) -> Self {
+        let origin = shift.place(self.origin);
+        Self {
+            number,
+            comment: self.comment.clone(),
+            network: match origin == self.origin {
+                true => self.network.clone(),
+                false => Network::at(&self.network, origin),
+            },
+            span: shift.span(self.span),
+            origin,
+        }
+    }
+
+    /// Gives rungs the networks that those before them had, where they are the
+    /// same: paired from the start, and what is left from the end.
+    pub(crate) fn keep_networks(before: &[Self], after: &mut [Self]) {
+        let mut kept = 0;
+        while let (Some(old), Some(new)) = (before.get(kept), after.get_mut(kept))
+            && new.keep(old)
+        {
+            kept += 1;
+        }
+        let before = before.get(kept..).unwrap_or_default();
+        let after = after.get_mut(kept..).unwrap_or_default();
+        let as_many = before.len() == after.len();
+        for (old, new) in before.iter().rev().zip(after.iter_mut().rev()) {
+            // Of as many rungs each has its own counterpart.
+            if !new.keep(old) && !as_many {
+                break;
+            }
+        }
+    }
+
+    /// Takes over the network of `before` if its own is the same. Whether it
+    /// is.
+    fn keep(&mut self, before: &Self) -> bool {
+        let is_same = self.network == before.network;
+        if is_same {
+            self.network = before.network.clone();
+        }
+        is_same
     }
 }

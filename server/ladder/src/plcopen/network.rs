@@ -114,22 +114,15 @@ pub(super) fn lower(body: &mut Body<'_>, plan: &Plan, span: Span) -> Placed {
     lowering.builder.finish()
 }
 
-/// The left rail that the rung hangs on, else the place of its first element.
+/// The place of the rung's first element. The left rail itself is drawn once
+/// for all rungs of a body; counted from there, each would change with any
+/// text between.
 fn rail_span(diagram: &Diagram<'_>, plan: &Plan) -> Span {
     let nodes = plan.nodes.iter().filter_map(|&at| diagram.nodes.get(at));
-    let sources = nodes
-        .clone()
-        .flat_map(|node| &node.inputs)
-        .flat_map(|input| &input.sources)
-        .filter_map(|source| diagram.nodes.get(source.node));
-    let mut rails = sources.filter(|node| node.kind == NodeKind::LeftRail);
-    match rails.next() {
-        Some(rail) => rail.span,
-        None => nodes
-            .map(|node| node.span)
-            .min()
-            .map_or_else(Span::default, |span| Span::at(span.start as usize)),
-    }
+    nodes
+        .map(|node| node.span)
+        .min()
+        .map_or_else(Span::default, |span| Span::at(span.start as usize))
 }
 
 impl<'a> Lowering<'_, 'a> {

@@ -30,6 +30,11 @@ const TRIED: usize = 8;
 /// Whether `text` is bare neutral text: one of its first statements reads
 /// without a fault and has an instruction that is known.
 pub(super) fn looks_like_it(text: &str) -> bool {
+    // What stands behind the last `;` is no whole statement.
+    let Some(last) = memchr::memrchr(b';', text.as_bytes()) else {
+        return false;
+    };
+    let text = &text[..=last];
     let mut at = 0;
     for _ in 0..TRIED {
         let label = label(text, at);

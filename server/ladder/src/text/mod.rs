@@ -15,6 +15,7 @@
 //! `statement`s, each is parsed by itself (`declaration`, `rung`, `output`,
 //! `term`) so that an error costs one statement, and a second pass folds
 //! addresses onto names (`names`) and draws the rungs (`network`, `drive`).
+//! After an edit `reread` does so for the statements that changed.
 //! [`format()`] lays a text out anew without changing what it says, and
 //! [`write()`] prints any program, whatever it was read from.
 
@@ -28,6 +29,7 @@ mod names;
 mod network;
 mod output;
 mod read;
+mod reread;
 mod rung;
 mod sections;
 mod spacing;
@@ -38,6 +40,7 @@ mod write;
 
 pub use layout::{Formatted, format};
 pub(crate) use read::read;
+pub(crate) use reread::{Traces, reread};
 use statement::{Item, Keyword};
 pub use write::{Lost, Written, branches, draw, write};
 

@@ -5,25 +5,28 @@
 //! ignore case, and `%IX0.1` is `%I0.1` (IEC 61131-3, 6.5.5.2: no size letter
 //! means a single bit).
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
+use std::sync::Arc;
 
 use logic::Name;
 
 use crate::Declarations;
 
-/// The variables of a program by their spellings.
-pub(super) struct Names<'d> {
-    declared: &'d Declarations,
-    by_address: HashMap<String, Name>,
-    known: HashMap<String, Name>,
-    pins: HashSet<String>,
+/// What the statements of a text say together about the names in each.
+#[derive(Clone, Debug)]
+pub(super) struct Spellings {
+    /// The names of declared addresses; the first to have an address keeps it.
+    declared: Arc<HashMap<String, Name>>,
+    /// Addresses that nobody declares, as they were first written.
+    met: Arc<HashMap<String, Name>>,
+    /// How often each name is written that ends in the pin of a timer or
+    /// counter, such as `t1.DN`.
+    pub(super) pins: Arc<HashMap<String, usize>>,
 }
 
-impl<'d> Names<'d> {
-    /// The names that `declared` gives, of which the first to have an address
-    /// keeps it. `pins` are those spellings in the whole text that end in a
-    /// pin, such as `t1.DN`.
-    pub(super) fn new(declared: &'d Declarations, pins: HashSet<String>) -> Self {
+impl Spellings {
+    /// Those of a text that declares `declared`, before any rung is read.
+    pub(super) fn new(declared: &Declarations, pins: HashMap<String, usize>) -> Self {
         let mut by_address = HashMap::new();
         for declaration in declared.iter() {
             if let Some(address) = &declaration.address {
@@ -33,10 +36,43 @@ impl<'d> Names<'d> {
             }
         }
         Self {
-            declared,
-            by_address,
-            known: HashMap::new(),
+            declared: Arc::new(by_address),
+            met: Arc::default(),
+            pins: Arc::new(pins),
+        }
+    }
+
+    /// The same with other counts of pins.
+    pub(super) fn with_pins(&self, pins: Arc<HashMap<String, usize>>) -> Self {
+        Self {
             pins,
+            ..self.clone()
+        }
+    }
+
+    fn at(&self, key: &str) -> Option<&Name> {
+        self.declared.get(key).or_else(|| self.met.get(key))
+    }
+}
+
+/// The variables of a program by their spellings.
+pub(super) struct Names<'d> {
+    declared: &'d Declarations,
+    pub(super) spellings: Spellings,
+    known: HashMap<String, Name>,
+    /// Spellings of addresses that nobody declares, in the order in which they
+    /// were met.
+    pub(super) undeclared: Vec<String>,
+}
+
+impl<'d> Names<'d> {
+    /// The names that `declared` and `spellings` give.
+    pub(super) fn new(declared: &'d Declarations, spellings: Spellings) -> Self {
+        Self {
+            declared,
+            spellings,
+            known: HashMap::new(),
+            undeclared: Vec::new(),
         }
     }
 
@@ -54,7 +90,14 @@ impl<'d> Names<'d> {
         if let Some(declaration) = self.declared.find(spelling) {
             return declaration.name.clone();
         }
-        if let Some(name) = self.by_address.get(&address_key(spelling)) {
+        let key = address_key(spelling);
+        if let Some(name) = self.spellings.declared.get(&key) {
+            return name.clone();
+        }
+        if spelling.starts_with('%') {
+            self.undeclared.push(spelling.to_owned());
+        }
+        if let Some(name) = self.spellings.met.get(&key) {
             return name.clone();
         }
         if let Some(name) = self.part_of_an_address(spelling) {
@@ -62,7 +105,7 @@ impl<'d> Names<'d> {
         }
         let name = Name::from(spelling);
         if spelling.starts_with('%') {
-            self.by_address.insert(address_key(spelling), name.clone());
+            Arc::make_mut(&mut self.spellings.met).insert(key, name.clone());
         }
         name
     }
@@ -79,7 +122,7 @@ impl<'d> Names<'d> {
                 if is_bit(&key) {
                     return None;
                 }
-                let name = self.by_address.get(&key)?;
+                let name = self.spellings.at(&key)?;
                 Some(format!("{name}{part}").into())
             })
     }
@@ -91,7 +134,7 @@ impl<'d> Names<'d> {
         let is_read = |pin: &str| {
             [spelled, instance]
                 .iter()
-                .any(|name| self.pins.contains(&format!("{name}.{pin}")))
+                .any(|name| self.spellings.pins.contains_key(&format!("{name}.{pin}")))
         };
         let by_type = || {
             let declaration = self.declared.find(instance)?;
@@ -158,7 +201,8 @@ mod tests {
             declaration.address = Some(address.into());
             declared.add(declaration);
         }
-        let mut names = Names::new(&declared, HashSet::new());
+        let whole = Spellings::new(&declared, HashMap::new());
+        let mut names = Names::new(&declared, whole);
         let fold = |spelling: &&str| names.fold(spelling).to_string();
         spellings.iter().map(fold).collect()
     }

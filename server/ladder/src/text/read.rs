@@ -1,6 +1,6 @@
 //! Turns statements into a program.
 
-use std::collections::HashSet;
+use std::collections::HashMap;
 
 use logic::Name;
 use logic::notation::{Lexer, Token};
@@ -9,8 +9,9 @@ use source::{Diagnostic, Span, codes};
 use super::declaration::{self, DeclarationText};
 use super::declare::{Declared, declare};
 use super::findings::expected;
-use super::names::Names;
+use super::names::{Names, Spellings};
 use super::network::{network, place};
+use super::reread::Traces;
 use super::rung;
 use super::sections::Sections;
 use super::statement::{Item, Keyword, Statement, WORDS, comment_text, cut, is_code};
@@ -56,8 +57,8 @@ fn no_statement(lexer: &Lexer<'_>) -> Diagnostic {
     expected(lexer, "a statement").help(format!("a statement begins with {}", words.join(", ")))
 }
 
-/// Reads a whole text.
-pub(crate) fn read(source: Source<'_>) -> Reading {
+/// Reads a whole text, and takes down what reading the next edition needs.
+pub(crate) fn read(source: Source<'_>) -> (Reading, Traces) {
     let text = source.text;
     let items = cut(text);
     let mut findings = Vec::new();
@@ -80,8 +81,8 @@ pub(crate) fn read(source: Source<'_>) -> Reading {
                 );
             }
             Some(meaning) => {
-                if problems.is_empty() {
-                    findings.extend(without_output(&meaning, statement.span()));
+                if let (Meaning::Rung(rung), true) = (&meaning, problems.is_empty()) {
+                    findings.extend(without_output(rung, statement.span()));
                 }
                 others.push((at, statement, meaning));
             }
@@ -91,7 +92,8 @@ pub(crate) fn read(source: Source<'_>) -> Reading {
     }
 
     // Rungs may use what is declared below them: they are drawn last.
-    let mut names = Names::new(&declared.all, pins(text, &items));
+    let pins = pins(text, items.iter().filter_map(Item::statement));
+    let mut names = Names::new(&declared.all, Spellings::new(&declared.all, pins));
     let mut sections = Sections::new();
     for (at, statement, meaning) in others {
         let span = statement.span();
@@ -102,18 +104,21 @@ pub(crate) fn read(source: Source<'_>) -> Reading {
                 sections.begin_routine(source, name, role, span, &mut findings);
             }
             Meaning::Rung(rung) => {
-                let place = place(source, span);
-                let routine = sections.routine_of_rung(place);
-                routine.span = routine.span.cover(place);
-                routine.rungs.push(Rung::new(
-                    u32::try_from(routine.rungs.len()).unwrap_or(u32::MAX),
-                    comment(text, &rung, items.get(..at).unwrap_or_default(), statement),
-                    network(&rung, span, source, &mut names, &mut findings),
-                    place,
-                ));
+                let routine = sections.routine_of_rung(place(source, span));
+                routine.span = routine.span.cover(place(source, span));
+                let number = u32::try_from(routine.rungs.len()).unwrap_or(u32::MAX);
+                let rung = Written {
+                    rung,
+                    statement,
+                    before: items.get(..at).unwrap_or_default(),
+                };
+                routine
+                    .rungs
+                    .push(rung.drawn(number, source, &mut names, &mut findings));
             }
         }
     }
+    let traces = Traces::new(&items, names.spellings);
     let mut program = Program::empty(Format::Ladder);
     program.name = sections.program;
     program.routines = sections.routines;
@@ -121,37 +126,73 @@ pub(crate) fn read(source: Source<'_>) -> Reading {
     findings
         .iter_mut()
         .for_each(|finding| move_to_file(finding, source));
-    Reading {
+    let reading = Reading {
         program: program.into(),
         diagnostics: findings,
+    };
+    (reading, traces)
+}
+
+/// How often the statements spell each name that ends in the pin of a timer or
+/// counter.
+pub(super) fn pins<'s>(
+    text: &str,
+    statements: impl Iterator<Item = &'s Statement>,
+) -> HashMap<String, usize> {
+    let mut pins = HashMap::new();
+    for token in statements.flat_map(|statement| &statement.tokens) {
+        let name = token.name(text);
+        if is_code(token) && (name.ends_with(".Q") || name.ends_with(".DN")) {
+            *pins.entry(name.to_owned()).or_default() += 1;
+        }
+    }
+    pins
+}
+
+/// A rung as it is written, among the pieces of its text.
+pub(super) struct Written<'i> {
+    pub(super) rung: RungText,
+    pub(super) statement: &'i Statement,
+    /// All pieces before it.
+    pub(super) before: &'i [Item],
+}
+
+impl Written<'_> {
+    /// The rung, drawn.
+    pub(super) fn drawn(
+        &self,
+        number: u32,
+        source: Source<'_>,
+        names: &mut Names<'_>,
+        findings: &mut Vec<Diagnostic>,
+    ) -> Rung {
+        let Self {
+            rung,
+            statement,
+            before,
+        } = self;
+        let span = statement.span();
+        Rung::new(
+            number,
+            comment(source.text, rung, before, statement),
+            network(rung, span, source, names, findings),
+            place(source, span),
+        )
     }
 }
 
-/// Those spellings in the text that end in the pin of a timer or counter.
-fn pins(text: &str, items: &[Item]) -> HashSet<String> {
-    let statements = items.iter().filter_map(|item| match item {
-        Item::Statement(statement) => Some(statement),
+/// The comment lines that end the pieces, from the last to the first.
+pub(super) fn comments_at_end<'t>(text: &'t str, items: &[Item]) -> Vec<&'t str> {
+    let comments = items.iter().rev().map_while(|item| match item {
+        Item::Comment(comment) => Some(comment_text(text, *comment)),
         _ => None,
     });
-    statements
-        .flat_map(|statement| statement.tokens.iter())
-        .filter(|token| is_code(token))
-        .map(|token| token.name(text))
-        .filter(|name| name.ends_with(".Q") || name.ends_with(".DN"))
-        .map(str::to_owned)
-        .collect()
+    comments.collect()
 }
 
 /// The title, then the comment lines right above, then the comment behind.
 fn comment(text: &str, rung: &RungText, before: &[Item], statement: &Statement) -> Option<Name> {
-    let above = before
-        .iter()
-        .rev()
-        .map_while(|item| match item {
-            Item::Comment(comment) => Some(comment_text(text, *comment)),
-            _ => None,
-        })
-        .collect::<Vec<_>>();
+    let above = comments_at_end(text, before);
     let title = rung.title.map(|title| title.name(text));
     let behind = statement.behind.map(|comment| comment_text(text, comment));
     let lines: Vec<_> = title
@@ -164,10 +205,7 @@ fn comment(text: &str, rung: &RungText, before: &[Item], statement: &Statement) 
 }
 
 /// A rung that drives nothing, unless it is there to be jumped to.
-fn without_output(meaning: &Meaning, span: Span) -> Option<Diagnostic> {
-    let Meaning::Rung(rung) = meaning else {
-        return None;
-    };
+pub(super) fn without_output(rung: &RungText, span: Span) -> Option<Diagnostic> {
     let is_empty = matches!(rung.leg.condition, Condition::Missing);
     if !rung.leg.outputs.is_empty() || is_empty && rung.label.is_some() {
         return None;
@@ -182,7 +220,7 @@ fn without_output(meaning: &Meaning, span: Span) -> Option<Diagnostic> {
 }
 
 /// Findings are made in places of the text and shown in places of the file.
-fn move_to_file(finding: &mut Diagnostic, source: Source<'_>) {
+pub(super) fn move_to_file(finding: &mut Diagnostic, source: Source<'_>) {
     finding.span = place(source, finding.span);
     for related in &mut finding.related {
         related.span = place(source, related.span);

@@ -48,6 +48,12 @@ impl Keyword {
             .copied()
     }
 
+    /// Number of bytes.
+    pub(super) fn len(self) -> usize {
+        let word = WORDS.iter().find(|(_, keyword)| *keyword == self);
+        word.map_or(0, |(word, _)| word.len())
+    }
+
     /// Whether a line without a keyword belongs to the statement above it.
     fn goes_on(self) -> bool {
         self == Self::Rung
@@ -63,6 +69,16 @@ pub(super) enum Item {
     Comment(Token),
     /// A statement.
     Statement(Statement),
+}
+
+impl Item {
+    /// The statement that it is.
+    pub(super) fn statement(&self) -> Option<&Statement> {
+        match self {
+            Self::Statement(statement) => Some(statement),
+            _ => None,
+        }
+    }
 }
 
 /// A statement as it is written.
