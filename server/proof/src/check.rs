@@ -13,7 +13,7 @@ use crate::report::{Difference, Proof, Report, Status, Verdict};
 use crate::{Cone, Netlist, Signal, Trace, replay};
 
 /// The first turn of each engine, in steps; every further one is twice as long.
-const TURN: u64 = 2_000_000;
+const TURN: u64 = 10_000_000;
 
 /// Whether a property of the netlist can be violated, by all engines together.
 ///

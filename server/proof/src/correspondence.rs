@@ -19,7 +19,7 @@ use crate::solver::{Answer, Solver};
 use crate::{Gates, Netlist, Signal};
 
 /// Most steps for one question; a candidate that needs more is dropped.
-const QUESTION: u64 = 2_000_000;
+const QUESTION: u64 = 5_000_000;
 
 /// Scans that are tried after a counterexample.
 const FURTHER: usize = 12;

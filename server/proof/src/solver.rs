@@ -7,10 +7,13 @@ use crate::Signal;
 use crate::graph::Graph;
 use crate::limits::{Meter, Why};
 
-/// What a decision and a conflict of the search count for, in steps: so many
-/// literals are propagated for one of them on average.
-const PER_DECISION: u64 = 10;
-const PER_CONFLICT: u64 = 100;
+/// What the search counts for, in steps: a literal propagated, with the clauses
+/// that are looked at for it, and a conflict, with what is learnt from it.
+const PER_LITERAL: u64 = 20;
+const PER_CONFLICT: u64 = 2_000;
+/// What a decision counts for as long as the literals that follow from it are
+/// not counted: the solver tells their number only when it is done.
+const PER_DECISION: u64 = 200;
 
 /// Asks whether signals of a graph can be 1 together.
 ///
@@ -81,11 +84,11 @@ impl Solver {
         }
         let clauses = self.sat.num_clauses() as usize;
         self.sat.cb_mut().start(meter, clauses);
-        let before = self.sat.num_propagations();
+        let before = self.work();
         let answer = self.sat.solve_limited(&assumed);
-        let propagated = self.sat.num_propagations() - before;
+        let work = self.work() - before;
         let full = self.sat.cb().kept.get() >= meter.clauses;
-        let spent = meter.spend(propagated as usize + 10);
+        let spent = meter.spend(work as usize + 10);
         if answer == lbool::TRUE {
             Ok(Answer::Yes)
         } else if answer == lbool::FALSE {
@@ -94,6 +97,11 @@ impl Solver {
             spent?;
             Err(if full { Why::Memory } else { Why::Steps })
         }
+    }
+
+    /// What all searches took, in steps.
+    fn work(&self) -> u64 {
+        PER_LITERAL * self.sat.num_propagations() + PER_CONFLICT * self.sat.num_conflicts()
     }
 
     /// The value of a signal in the last answer, if the answer was yes and the

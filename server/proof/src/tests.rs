@@ -20,7 +20,20 @@ use crate::induction::Induction;
 use crate::limits::{Limits, Meter};
 use crate::observers::observe;
 use crate::reach::{Reached, reach};
-use crate::{Netlist, Signal, compare};
+use crate::{Gates, Netlist, Signal, compare};
+
+/// `motor = (start + motor) * /stop`
+pub(crate) fn seal_in() -> Netlist {
+    let mut netlist = Netlist::default();
+    let start = netlist.input("start");
+    let stop = netlist.input("stop");
+    let motor = netlist.latch("motor", false);
+    let held = netlist.or(start, motor);
+    let runs = netlist.and(held, !stop);
+    netlist.set_next(motor, runs);
+    netlist.output("motor", runs);
+    netlist
+}
 
 fn meter() -> Meter {
     Meter::new(&Limits::default(), u64::MAX)

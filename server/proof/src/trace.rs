@@ -90,17 +90,13 @@ pub fn replay(netlist: &Netlist, trace: &Trace) -> Replay {
 mod tests {
     use super::*;
     use crate::Gates;
+    use crate::tests::seal_in;
 
     #[test]
     fn a_latch_shows_what_the_scan_before_computed() {
-        let mut netlist = Netlist::default();
-        let start = netlist.input("start");
-        let stop = netlist.input("stop");
-        let motor = netlist.latch("motor", false);
-        let held = netlist.or(start, motor);
-        let runs = netlist.and(held, !stop);
-        netlist.set_next(motor, runs);
-        netlist.output("motor", runs);
+        let mut netlist = seal_in();
+        let [start, stop] = ["start", "stop"].map(|name| netlist.input(name));
+        let motor = netlist.latches()[0].signal;
         let both = netlist.and(start, stop);
         netlist.constrain(!both);
         netlist.never("runs by itself", motor);

@@ -14,7 +14,7 @@ pub struct Abc {
 /// it was ended after this many seconds.
 pub type Run = Option<(String, Duration)>;
 
-const PATIENCE: &str = "300";
+const PATIENCE: &str = "120";
 
 impl Abc {
     /// Brings ABC; `None` if it cannot be had. Files are kept in `folder`.

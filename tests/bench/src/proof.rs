@@ -67,7 +67,7 @@ fn row(latches: usize, encoding: Encoding, abc: Option<&Abc>) -> String {
         panic!("the fault shows: {different:?}");
     };
     assert!(difference.is_shortest());
-    let peer = |peer: Option<Duration>| peer.map_or("more than 300 s".to_owned(), shown);
+    let peer = |peer: Option<Duration>| peer.map_or("more than 120 s".to_owned(), shown);
     let times = |peer: Option<Duration>| {
         // The shell tells milliseconds.
         let peer = peer.map(|peer| peer.max(Duration::from_millis(1)));

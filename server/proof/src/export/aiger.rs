@@ -153,19 +153,7 @@ fn symbols(netlist: &Netlist) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Gates;
-
-    fn seal_in() -> Netlist {
-        let mut netlist = Netlist::default();
-        let start = netlist.input("start");
-        let stop = netlist.input("stop");
-        let motor = netlist.latch("motor", false);
-        let held = netlist.or(start, motor);
-        let runs = netlist.and(held, !stop);
-        netlist.set_next(motor, runs);
-        netlist.output("motor", runs);
-        netlist
-    }
+    use crate::tests::seal_in;
 
     #[test]
     fn a_netlist_is_written_as_text() {

@@ -33,7 +33,7 @@ fn judged(left: &Plan, right: &Plan, manners: [u64; 2]) -> (Option<usize>, Optio
 
 proptest! {
     #![proptest_config(ProptestConfig {
-        cases: 1_000,
+        cases: 2_000,
         failure_persistence: None,
         ..ProptestConfig::default()
     })]
