@@ -10,12 +10,12 @@ use ladder::{Edition, reread};
 const RUNGS: usize = 13_000;
 
 /// A plant and the plant with `typed` behind the last `mark` in its first
-/// half.
+/// two thirds.
 fn edit(mark: &str, typed: &str) -> (Edition, Arc<str>) {
     let before = plant(RUNGS);
-    let half = before.len() / 2;
-    let at = before[..half].rfind(mark).map(|at| at + mark.len());
-    let (above, below) = before.split_at(at.unwrap_or(half));
+    let most = before.len() / 3 * 2;
+    let at = before[..most].rfind(mark).map(|at| at + mark.len());
+    let (above, below) = before.split_at(at.unwrap_or(most));
     let after = format!("{above}{typed}{below}");
     (Edition::new(before.into()), after.into())
 }
@@ -28,9 +28,9 @@ fn rereading(criterion: &mut Criterion) {
         bencher.iter(|| black_box(ladder::read(text.as_bytes())));
     });
     for (what, mark, typed) in [
-        ("reread after a letter", "_full", "x"),
-        ("reread after a rung", "\n", "rung: stop -> alarm\n"),
-        ("reread after a declaration", "\n", "output alarm\n"),
+        ("reread after a letter", "rung \"Lamp\": (m", "x"),
+        ("reread after a rung", "_lamp\n", "rung: stop -> alarm\n"),
+        ("reread after a declaration", "_lamp\n", "output alarm\n"),
     ] {
         let (before, after) = edit(mark, typed);
         group.bench_function(what, |bencher| {

@@ -11,9 +11,20 @@ pub const MACHINE: usize = 10;
 /// sequence: coils that seal in and hand over by a sensor, coils that release
 /// the one before, and latches. Each also has a timer, an interlocked pair and
 /// outputs of several states, and one stop button stands in every rung of the
-/// plant, as it does in real ones.
+/// plant, as it does in real ones. All that no rung writes is declared.
 pub fn plant(rungs: usize) -> String {
     let mut text = String::from("program Plant\n\ninput stop %I0 // Stop button of the plant\n");
+    for machine in 0..rungs / MACHINE {
+        let own = match machine % 3 {
+            0 => ["start", "full", "hot", "low"].as_slice(),
+            1 => &["start", "home", "at", "tight", "manual", "jam"],
+            _ => &["start", "loaded", "there", "free", "manual"],
+        };
+        for input in own.iter().chain(&COMMON_INPUTS) {
+            let written = writeln!(text, "input m{machine}_{input}");
+            debug_assert!(written.is_ok(), "writing to a string cannot fail");
+        }
+    }
     for machine in 0..rungs / MACHINE {
         let written = match machine % 3 {
             0 => by_sensors(&mut text, machine),
@@ -24,6 +35,9 @@ pub fn plant(rungs: usize) -> String {
     }
     text
 }
+
+/// Inputs of every machine: those of its doors and its lamp.
+const COMMON_INPUTS: [&str; 5] = ["open_button", "opened", "close_button", "closed", "test"];
 
 /// What ends a state is the sensor that starts the next.
 fn by_sensors(text: &mut String, m: usize) -> std::fmt::Result {
@@ -107,6 +121,10 @@ fn lamp(text: &mut String, m: usize) -> std::fmt::Result {
 
 #[cfg(test)]
 mod tests {
+    use std::collections::HashSet;
+
+    use ladder::ElementKind;
+
     use super::*;
 
     #[test]
@@ -114,6 +132,26 @@ mod tests {
         let reading = ladder::read(plant(300).as_bytes());
         assert_eq!(reading.diagnostics, []);
         assert_eq!(reading.program.rungs().count(), 300);
+    }
+
+    #[test]
+    fn whatever_is_read_is_written_or_declared() {
+        let program = ladder::read(plant(300).as_bytes()).program;
+        let elements = || {
+            let rungs = program.rungs();
+            rungs.flat_map(|(_, rung)| rung.network.elements().map(|(_, it)| &it.kind))
+        };
+        let mut known: HashSet<&str> = HashSet::new();
+        known.extend(program.declarations.iter().map(|it| &*it.name));
+        for kind in elements() {
+            known.extend(kind.writes().iter().map(|it| &*it.name));
+            if let ElementKind::Timer(timer) = kind {
+                known.insert(&*timer.output);
+            }
+        }
+        let read = elements().flat_map(ElementKind::reads);
+        let unknown: Vec<_> = read.filter(|it| !known.contains(&*it.name)).collect();
+        assert!(unknown.is_empty(), "{unknown:?}");
     }
 
     #[test]
