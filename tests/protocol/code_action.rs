@@ -147,6 +147,55 @@ fn accepting_changes_only_what_follows_and_can_be_taken_back() {
 }
 
 #[test]
+fn every_decision_is_an_edit_of_the_spec_and_can_be_taken_back() {
+    for (title, decision) in [
+        ("Accept v1 -> v4", "//! accept v1 -> v4"),
+        ("Reject v1 -> v2", "//! reject v1 -> v2"),
+        ("Start the sequence in v1", "//! initial v1"),
+    ] {
+        let mut client = client_like(Profile::VsCode);
+        client.open_fixture(LADDER, "tank.ladder");
+        let actions = offered(&mut client, "tank.ladder", "v1) * /ls2");
+        let create = text_edits(&taken(&mut client, &actions, "Create the spec")).1;
+        let before = edited("", &create);
+        client.open("tank.grafcet", &before);
+        let edits = text_edits(&taken(&mut client, &actions, title)).1;
+        let after = edited(&before, &edits);
+        assert!(after.lines().any(|line| line == decision), "{after}");
+        client.replace_all("tank.grafcet", &after);
+        let actions = offered(&mut client, "tank.ladder", "v1) * /ls2");
+        let back = text_edits(&taken(&mut client, &actions, "Take back")).1;
+        assert_eq!(edited(&after, &back), before, "{title}");
+    }
+}
+
+#[test]
+fn selected_states_may_follow_each_other_though_nobody_suggests_it() {
+    let mut client = client_like(Profile::VsCode);
+    let ladder = "rung: (m + $0v3) * ls1 -> v3\nrung: (s + v1$1) * /ls2 -> v1\n";
+    let marked = client.open("tank.ladder", ladder);
+    let params = CodeActionParams {
+        text_document: TextDocumentIdentifier {
+            uri: client.uri("tank.ladder"),
+        },
+        range: Range::new(marked.position(0, false), marked.position(1, false)),
+        context: CodeActionContext::default(),
+        work_done_progress_params: Default::default(),
+        partial_result_params: Default::default(),
+    };
+    let actions = client.request::<CodeActionRequest>(params);
+    let Some(CodeActionOrCommand::CodeAction(own)) = actions.into_iter().flatten().next() else {
+        panic!("nothing is offered");
+    };
+    assert_eq!(own.title, "Accept v3 -> v1 (not suggested)");
+    let edits = text_edits(&taken(&mut client, &[own], "Accept v3")).1;
+    assert!(
+        edited("", &edits).contains("//! accept v3 -> v1\n"),
+        "{edits:?}"
+    );
+}
+
+#[test]
 fn a_rule_that_the_ladder_no_longer_gives_is_mended() {
     let mut client = client_like(Profile::VsCode);
     client.open_fixture(LADDER, "tank.ladder");
@@ -249,16 +298,18 @@ fn what_mends_a_rule_comes_before_what_explains_it() {
     );
     client.open("tank.grafcet", &spec.replacen("/ls2 |-", "/ls3 |-", 1));
     let actions = offered(&mut client, "tank.grafcet", "/ls3 |-");
-    let first: Vec<String> = kinds(&actions).into_iter().take(4).collect();
+    let kinds = kinds(&actions);
     assert_eq!(
-        first,
+        kinds[..3],
         [
             "quickfix: Take over what the",
             "quickfix: Keep v1_starts as it",
             "quickfix: Take over all that",
-            "quickfix.gradus.explain: Explain G3101: rule that",
         ]
     );
+    let last = kinds.last().map(String::as_str);
+    let explains = "quickfix.gradus.explain: Explain G3101: rule that";
+    assert_eq!(last, Some(explains));
 }
 
 #[test]

@@ -59,7 +59,8 @@ fn conditions(client: &mut Client, name: &str) -> String {
     answer["text"].as_str().expect("a text").to_owned()
 }
 
-/// What is shown at a place: the text, and where the thing begins and ends.
+/// What is shown at a place: the text but for the document's address, and where
+/// the thing begins and ends.
 fn shown(client: &mut Client, name: &str, at: Position) -> Option<(String, Value)> {
     let params = HoverParams {
         text_document_position_params: client.at(name, at),
@@ -67,7 +68,10 @@ fn shown(client: &mut Client, name: &str, at: Position) -> Option<(String, Value
     };
     let hover = client.request::<HoverRequest>(params)?;
     match hover.contents {
-        HoverContents::Markup(markup) => Some((markup.value, json!(hover.range))),
+        HoverContents::Markup(markup) => {
+            let text = markup.value.replace(client.uri(name).as_str(), "");
+            Some((text, json!(hover.range)))
+        }
         other => panic!("no markup: {other:?}"),
     }
 }

@@ -1,4 +1,4 @@
-use end_to_end::lsp::Profile;
+use end_to_end::lsp::{Client, Marked, Profile};
 use tower_lsp::ls_types::request::HoverRequest;
 use tower_lsp::ls_types::{HoverContents, HoverParams, MarkupKind};
 
@@ -151,6 +151,103 @@ on while  conveyor_0_empty*conveyor_1_empty*conveyor_2_empty*
 
 Driven by rung 0 of main"
     );
+}
+
+/// What is shown at the first place of `what` in an open document.
+fn shown_at(client: &mut Client, name: &str, what: &str) -> String {
+    let text = client.text(name).to_owned();
+    let at = text.find(what).expect("the place");
+    let marked = Marked {
+        text,
+        cursors: vec![at],
+    };
+    let params = HoverParams {
+        text_document_position_params: client.at(name, marked.position(0, true)),
+        work_done_progress_params: Default::default(),
+    };
+    let hover = client.request::<HoverRequest>(params).expect("a hover");
+    match hover.contents {
+        HoverContents::Markup(markup) => markup.value,
+        other => panic!("no markup: {other:?}"),
+    }
+}
+
+#[test]
+fn the_same_coil_has_the_same_conditions_in_every_format() {
+    for (form, contact) in [
+        ("ladder", "v2 + ls2"),
+        ("L5X", "v2) ,XIC(ls2)"),
+        ("xml", "v2</variable>"),
+    ] {
+        let mut client = client_like(Profile::Helix);
+        let name = format!("tank.{form}");
+        client.open_fixture(
+            &format!("fixtures/neutralization/neutralization.{form}"),
+            &name,
+        );
+        let text = shown_at(&mut client, &name, contact);
+        let conditions = "\
+turns on     ls2*/ls3*/as
+stays on     /ls3*/tl + /ls3*/as
+turns off    ls3 + tl*as
+
+follows      v1 (handover on ls2*/ls3*/as)
+";
+        assert!(text.contains(conditions), "{form}: {text}");
+        assert!(text.contains("holds a state (seal-in)"), "{form}: {text}");
+    }
+}
+
+#[test]
+fn a_step_and_a_transition_tell_what_they_stand_for() {
+    let mut client = client_like(Profile::Helix);
+    client.open("tank.ladder", TANK);
+    client.open(
+        "tank.grafcet",
+        "\
+Step X0
+Step Xv1 for v1 // Fill it
+Transition t1
+Input s
+Marking X0
+Transitions:
+t1: X0*s |- @Xv1 // by hand
+",
+    );
+    assert_eq!(
+        shown_at(&mut client, "tank.grafcet", "Xv1 for"),
+        "**Xv1**  
+Fill it: step for v1
+
+```text
+begins by    t1: from X0 to Xv1 on s
+
+turns on     s*/ls2
+stays on     /ls2
+turns off    ls2
+
+follows      v2 (possible)
+followed by  v2 (handover on s*ls2)
+
+┬──[ s ]───┬──[/ls2]────( v1 )
+└──[ v1 ]──┘
+```
+
+Driven by rung 0 of Tank (Fill the tank)"
+    );
+    assert_eq!(
+        shown_at(&mut client, "tank.grafcet", "t1: X0"),
+        "**t1**  
+by hand: transition
+
+```text
+from  X0
+to    Xv1
+on    s
+```"
+    );
+    let read = shown_at(&mut client, "tank.grafcet", "s |- @");
+    assert!(read.starts_with("**s** `%I0`  \nStart: input\n"), "{read}");
 }
 
 #[test]

@@ -112,8 +112,11 @@ impl Client {
         marked
     }
 
-    /// Opens a document whose text has no cursors.
+    /// Opens a document whose text has no cursors. What was told of one that was
+    /// closed is forgotten: its versions begin anew.
     pub fn open_plain(&mut self, name: &str, text: &str) {
+        let uri = self.uri(name);
+        self.published.remove(&uri);
         let language = match Path::new(name).extension().and_then(|it| it.to_str()) {
             Some("ladder") => "gradus-ladder",
             Some("grafcet") => "grafcet",
