@@ -171,14 +171,15 @@ fn edits_are_as_opening(profile: Profile) {
         }
         let last = client.text("edited.ladder").to_owned();
         client.open_plain("opened.ladder", &last);
-        let edited = format!("{:?}", everything(client, "edited.ladder"));
-        let edited = edited.replace("edited.ladder", "opened.ladder");
-        let opened = format!("{:?}", everything(client, "opened.ladder"));
+        let edited = everything(client, "edited.ladder");
+        let opened = everything(client, "opened.ladder");
         client.close("edited.ladder");
         client.close("opened.ladder");
         match edited == opened {
             true => Ok(()),
-            false => Err(TestCaseError::fail(format!("{last:?}\n{edited}\n{opened}"))),
+            false => Err(TestCaseError::fail(format!(
+                "{last:?}\n{edited:?}\n{opened:?}"
+            ))),
         }
     });
     if let Err(failure) = checked {
