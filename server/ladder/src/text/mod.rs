@@ -34,6 +34,7 @@ mod rung;
 mod sections;
 mod spacing;
 mod statement;
+mod stretch;
 mod syntax;
 mod term;
 mod write;

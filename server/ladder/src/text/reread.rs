@@ -21,14 +21,12 @@ use std::sync::Arc;
 
 use source::Diagnostic;
 
-use super::names::{Names, Spellings};
-use super::read::{
-    Meaning, Written, comments_at_end, move_to_file, pins, understand, without_output,
-};
-use super::statement::{Item, Keyword, Statement, cut};
+use super::names::Spellings;
+use super::statement::{Item, Keyword};
+use super::stretch::{Head, Said, head};
 use crate::reading::{Reading, Source};
 use crate::shift::Shift;
-use crate::{Declarations, Program, Routine, Rung};
+use crate::{Program, Routine, Rung};
 
 /// What reading the next edition of a text needs to know of this one.
 #[derive(Clone, Debug)]
@@ -40,28 +38,6 @@ pub(crate) struct Traces {
     pub(crate) read: usize,
 }
 
-/// The first word of a statement.
-#[derive(Clone, Copy, Debug)]
-struct Head {
-    /// Its first byte in the text.
-    start: u32,
-    keyword: Keyword,
-}
-
-impl Head {
-    fn start(self) -> usize {
-        self.start as usize
-    }
-
-    /// Up to where `text` must stay the same for the head to do so: what
-    /// follows a word tells where it ends.
-    fn reach(self, text: &str) -> usize {
-        let end = self.start() + self.keyword.len();
-        let next = text.get(end..).and_then(|rest| rest.chars().next());
-        end + next.map_or(1, char::len_utf8)
-    }
-}
-
 impl Traces {
     pub(super) fn new(items: &[Item], spellings: Spellings) -> Self {
         let statements = items.iter().filter_map(Item::statement);
@@ -71,15 +47,6 @@ impl Traces {
             read: statements.count(),
         }
     }
-}
-
-/// The head of a statement of a stretch that begins at `base`.
-fn head(statement: &Statement, base: usize) -> Option<Head> {
-    let start = base + statement.span().range().start;
-    Some(Head {
-        start: u32::try_from(start).unwrap_or(u32::MAX),
-        keyword: statement.keyword?,
-    })
 }
 
 /// Reads `after`, of which `before` was the edition before, if what was read
@@ -222,8 +189,12 @@ impl Edit<'_> {
             .map_or(self.before.text.len(), |head| head.start());
         let until_after = self.moved(until)?;
         let declared = &program.declarations;
-        let old = Said::in_stretch(self.before, &self.start, until, declared, spellings)?;
-        let new = Said::in_stretch(self.after, &self.start, until_after, declared, spellings)?;
+        let said = |source, until| {
+            let stretch = self.start.context..until;
+            Said::in_stretch(source, stretch, self.start.from, declared, spellings)
+        };
+        let old = said(self.before, until)?;
+        let new = said(self.after, until_after)?;
         if old.undeclared != new.undeclared || !is_last && old.comments != new.comments {
             return None;
         }
@@ -370,80 +341,6 @@ fn headed(routine: &Routine) -> Routine {
         role: routine.role,
         rungs: Vec::new(),
         span: routine.span,
-    }
-}
-
-/// What the statements of a stretch say: their rungs, and what concerns
-/// others.
-struct Said<'t> {
-    rungs: Vec<Rung>,
-    findings: Vec<Diagnostic>,
-    heads: Vec<Head>,
-    statements: usize,
-    pins: HashMap<String, usize>,
-    undeclared: Vec<String>,
-    /// The comment lines at its end.
-    comments: Vec<&'t str>,
-}
-
-impl<'t> Said<'t> {
-    /// Reads the stretch up to the byte `until`; `None` if it declares
-    /// something or begins a program or routine.
-    fn in_stretch(
-        source: Source<'t>,
-        start: &Start,
-        until: usize,
-        declared: &Declarations,
-        spellings: &Spellings,
-    ) -> Option<Self> {
-        let text = source.text.get(start.context..until)?;
-        let base = source.base + start.context;
-        let source = Source { text, base };
-        let items = cut(text);
-        let is_read = |it: &&Statement| it.span().range().start + start.context >= start.from;
-        let statements = || items.iter().filter_map(Item::statement).filter(is_read);
-        let mut findings = Vec::new();
-        let mut written = Vec::new();
-        for (at, item) in items.iter().enumerate() {
-            let Some(statement) = item.statement().filter(is_read) else {
-                continue;
-            };
-            let (meaning, problems) = understand(text, statement);
-            match meaning {
-                Some(Meaning::Rung(rung)) => {
-                    if problems.is_empty() {
-                        findings.extend(without_output(&rung, statement.span()));
-                    }
-                    let before = items.get(..at).unwrap_or_default();
-                    written.push(Written {
-                        rung,
-                        statement,
-                        before,
-                    });
-                }
-                None if statement.keyword.is_none() => {}
-                _ => return None,
-            }
-            findings.extend(problems);
-        }
-        let mut names = Names::new(declared, spellings.clone());
-        let drawn = written.iter();
-        let rungs = drawn.map(|rung| rung.drawn(0, source, &mut names, &mut findings));
-        let rungs = rungs.collect();
-        for finding in &mut findings {
-            move_to_file(finding, source);
-        }
-        Some(Self {
-            rungs,
-            findings,
-            heads: statements()
-                .filter_map(|it| head(it, start.context))
-                .collect(),
-            statements: statements().count(),
-            pins: pins(text, statements()),
-            undeclared: names.undeclared,
-            comments: comments_at_end(text, &items),
-        })
     }
 }
 
