@@ -113,6 +113,17 @@ enum Skipping {
     Never,
 }
 
+/// Stands for a variable as it was at the start of the scan, in a condition in
+/// which the variable's own atom is what it was before the rung. No table gives
+/// this number to an atom.
+const AT_START: AtomId = AtomId(0);
+
+/// The variable as it was at the start of the scan, in the guard of one that
+/// its rung writes several times.
+pub(super) fn at_start() -> Function {
+    Function::atom(AT_START)
+}
+
 /// The value of `atom` after the scan: its writes, one after the other.
 fn next_value(
     atom: AtomId,
@@ -132,6 +143,7 @@ fn next_value(
         }
         let guard = write.effective.as_ref().unwrap_or(&write.guard);
         let guard = guard.clone()?.substitute(atom, &before_rung, budget)?;
+        let guard = guard.substitute(AT_START, &before_scan, budget)?;
         let written = apply(&write.kind, &guard, &write.zone.clone()?, &value, budget)?;
         value = match skipping {
             Skipping::Never => written,
@@ -195,6 +207,14 @@ mod tests {
     fn a_leg_sees_what_the_legs_above_it_have_written() {
         assert_eq!(next("a -> q, (b*/q -> set q)"), "a");
         assert_eq!(next("a -> set q, (b*q -> reset q)"), "q*/a + a*/b");
+    }
+
+    #[test]
+    fn a_zone_was_switched_by_what_was_there_before_the_rung() {
+        // What the second leg sees is `b` in the zone that the first rung's `q`
+        // has switched on, whatever `a` has made of it since.
+        let rungs = "q -> MCR()\nrung: a -> q\nrung: b -> q, (c*q -> reset q)\nrung: 1 -> MCR()";
+        assert_eq!(next(rungs), "q*b*/c");
     }
 
     #[test]

@@ -59,7 +59,11 @@ impl Solving {
         let before = writes.last().map(|(_, value)| value.clone());
         let before = before.unwrap_or(Ok(Function::atom(target)));
         let guard = event.effective.as_ref().unwrap_or(&event.guard).clone();
-        let zone = zone.clone();
+        // The power of the zone was there before the rung, so that in it the
+        // variable has the value of another moment.
+        let zone = zone
+            .clone()
+            .and_then(|zone| zone.substitute(target, &fold::at_start(), walk.budget));
         let kind = WriteKind::Coil(kind);
         let value =
             before.and_then(|before| fold::apply(&kind, &guard?, &zone?, &before, walk.budget));
