@@ -61,8 +61,9 @@ pub(crate) fn reach(netlist: &Netlist, meter: &mut Meter) -> Result<Reached, Why
 /// Which variable of the diagrams stands for what.
 struct Order {
     /// The variable of each leaf of the netlist; for a latch, before the scan.
-    /// The one after the scan comes next to it.
-    of_node: Vec<usize>,
+    /// The one after the scan comes next to it. `None` where nothing that is
+    /// asked about depends on the leaf.
+    of_node: Vec<Option<usize>>,
     /// The latches in the order of their variables, by their places.
     latches: Vec<usize>,
     /// Whether a variable is a latch before the scan.
@@ -73,7 +74,7 @@ struct Order {
 impl Order {
     fn of(netlist: &Netlist) -> Self {
         let mut order = Self {
-            of_node: vec![0; netlist.size()],
+            of_node: vec![None; netlist.size()],
             latches: Vec::new(),
             is_latch: Vec::new(),
             variables: 0,
@@ -95,7 +96,7 @@ impl Order {
             let Some(leaf) = netlist.leaf(node) else {
                 continue;
             };
-            order.of_node[node] = order.variables;
+            order.of_node[node] = Some(order.variables);
             match leaf {
                 Leaf::Input(_) => order.is_latch.push(false),
                 Leaf::Latch(at) => {
@@ -109,8 +110,9 @@ impl Order {
         order
     }
 
-    fn variable(&self, leaf: Signal) -> usize {
-        self.of_node[leaf.node()]
+    /// The variable of a latch, before the scan.
+    fn variable(&self, latch: Signal) -> usize {
+        self.of_node[latch.node()].unwrap_or_default()
     }
 }
 
@@ -198,7 +200,10 @@ impl Values {
         for node in 1..netlist.size() {
             let value = match netlist.graph.gate(node) {
                 Some([a, b]) => diagrams.and(&values.of(a), &values.of(b), meter)?,
-                None => diagrams.variable(order.of_node[node]),
+                None => order.of_node[node].map_or_else(
+                    || diagrams.constant(false),
+                    |variable| diagrams.variable(variable),
+                ),
             };
             nodes += value.size();
             if nodes > meter.nodes {

@@ -53,6 +53,22 @@ fn pairs() -> impl Strategy<Value = (Netlist, Option<usize>)> {
     })
 }
 
+#[test]
+fn inputs_that_nothing_depends_on_have_no_part_in_what_is_reached() {
+    let constant = |value: Signal| {
+        let mut netlist = Netlist::default();
+        netlist.input("a");
+        netlist.output("q", value);
+        netlist
+    };
+    let both = compare(&constant(Signal::TRUE), &constant(Signal::TRUE));
+    let reached = reach(&both.netlist, &mut meter()).expect("small");
+    assert_eq!(reached, Reached::All(Some(1)));
+    let both = compare(&constant(Signal::TRUE), &constant(Signal::FALSE));
+    let reached = reach(&both.netlist, &mut meter()).expect("small");
+    assert_eq!(reached, Reached::Violation(0));
+}
+
 /// Deeper than any difference of systems so small.
 const DEEP: usize = 80;
 
