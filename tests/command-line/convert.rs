@@ -98,6 +98,30 @@ fn line_ends_and_the_byte_order_mark_of_a_spec_stay() {
 }
 
 #[test]
+fn a_decision_written_by_hand_says_what_accepting_says() {
+    // Decisions are a paragraph of their own.
+    for (pair, before, gap) in [
+        ("v1->v2&h&m", None, "\n"),
+        ("v4->m", Some("v1->v2&h&m"), ""),
+    ] {
+        let gradus = gradus();
+        gradus.write("tank.ladder", ladder());
+        gradus.run(&["convert", "tank.ladder"]);
+        if let Some(before) = before {
+            gradus.run(&["convert", "tank.ladder", "--accept", before]);
+        }
+        let undecided = gradus.read("tank.grafcet");
+        gradus.run(&["convert", "tank.ladder", "--accept", pair]);
+        let accepted = gradus.read("tank.grafcet");
+        assert_ne!(accepted, undecided);
+        let decision = accepted.lines().last().expect("a decision");
+        gradus.write("tank.grafcet", format!("{undecided}{gap}{decision}\n"));
+        gradus.run(&["convert", "tank.ladder"]);
+        assert_eq!(gradus.read("tank.grafcet"), accepted, "{decision}");
+    }
+}
+
+#[test]
 fn no_spec_however_damaged_makes_it_panic_or_lose_a_line() {
     let gradus = gradus();
     gradus.write("tank.ladder", ladder());

@@ -34,9 +34,14 @@ pub fn merged_spec(
         false => "",
     };
     let body = &text[mark.len()..];
-    merged(&laid_out(&before), body, &laid_out(target))
+    let after = laid_out(target);
+    // A decision that was written by hand is in the text already, and what it
+    // brings is not; then the text is what it says, laid out.
+    [&before, existing]
+        .into_iter()
+        .filter_map(|before| merged(&laid_out(before), body, &after))
         .map(|body| format!("{mark}{body}"))
-        .filter(|text| grafcet::read(text).spec.says_the_same(target))
+        .find(|text| grafcet::read(text).spec.says_the_same(target))
         .unwrap_or_else(|| grafcet::rewrite(text, target))
 }
 

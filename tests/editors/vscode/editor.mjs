@@ -25,23 +25,35 @@ export class Editor {
     }
   }
 
+  /** Opens a file by its path. A text that the server made of one is offered too, under a longer name. */
   async open(path) {
-    await this.#quickInput("open a file", "Control+p", path);
+    const input = this.page.locator(".quick-input-widget input.input");
+    await this.pressUntil("open a file", () => this.keys.press("Control+p"), input);
+    await input.fill(path);
+    const rows = this.page.locator(".quick-input-list .monaco-list-row");
+    const wanted = rows.filter({ has: this.page.getByText(basename(path), { exact: true }) });
+    await wanted.first().waitFor();
+    const focused = wanted.and(this.page.locator(".focused"));
+    for (let left = await rows.count(); left > 0 && (await focused.count()) === 0; left--) {
+      await this.keys.press("ArrowDown");
+    }
+    await focused.waitFor();
+    await this.keys.press("Enter");
     await this.text(path).waitFor();
     await this.page.locator(".quick-input-widget").waitFor({ state: "hidden" });
   }
 
   async run(command) {
-    await this.#quickInput(`run ${command}`, "F1", `>${command}`);
+    await this.#command(command);
     await this.page.locator(".quick-input-widget").waitFor({ state: "hidden" });
   }
 
-  async #quickInput(what, key, text) {
+  /** Runs the first command in the palette, once that is the one that is wanted. */
+  async #command(text) {
     const input = this.page.locator(".quick-input-widget input.input");
-    await this.pressUntil(what, () => this.keys.press(key), input);
-    await input.fill(text);
-    const wanted = basename(text.replace(/^>/, ""));
-    await this.page.locator(".quick-input-list .monaco-list-row.focused", { hasText: wanted }).waitFor();
+    await this.pressUntil(`run ${text}`, () => this.keys.press("F1"), input);
+    await input.fill(`>${text}`);
+    await this.page.locator(".quick-input-list .monaco-list-row.focused", { hasText: text }).waitFor();
     await this.keys.press("Enter");
   }
 
@@ -298,7 +310,7 @@ export class Editor {
 
   /** Runs a command that asks with a list, and takes an entry of that. */
   async runAndPick(command, entry) {
-    await this.#quickInput(`run ${command}`, "F1", `>${command}`);
+    await this.#command(command);
     const rows = this.page.locator(".quick-input-list .monaco-list-row");
     await rows.filter({ hasText: entry }).waitFor();
     await this.page.locator(".quick-input-widget input.input").fill(entry);
@@ -316,10 +328,11 @@ export class Editor {
     await this.page.locator(".gettingStartedContainer .monaco-button", { hasText: button }).first().click();
   }
 
-  /** Answers the question for the place of a file. */
+  /** Answers the question for the place of a file, once its own proposal stands there: before that it reads no path. */
   async saveAs(path) {
     const input = this.page.locator(".quick-input-widget input.input");
     await input.waitFor();
+    await until("a place is proposed", async () => (await input.inputValue()).endsWith(basename(path)));
     await input.fill(path);
     await this.keys.press("Enter");
     await input.waitFor({ state: "hidden" });

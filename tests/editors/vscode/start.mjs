@@ -88,7 +88,7 @@ export function start(at, vsix) {
     await editor.verdictIs(/no spec/);
   });
 
-  test("the walkthrough leads to an example and to its conditions", async () => {
+  test("the walkthrough leads to an example, to its conditions and to its spec", async () => {
     const { editor, workbench } = at;
     const path = join(workbench.folder, "neutralization.ladder");
     await editor.runAndPick("Welcome: Open Walkthrough...", "From a ladder to its Grafcet");
@@ -106,6 +106,12 @@ export function start(at, vsix) {
     };
     await walkOn("Ask a coil what it does", "Show the conditions of all coils");
     await editor.shows(`${path}.txt`, "Open valve v1");
+    await editor.open(path);
+    await walkOn("Accept what follows what", "Accept all handovers");
+    await editor.isDirty(join(workbench.folder, "neutralization.grafcet"));
+    await editor.saveAll();
+    const spec = readFileSync(join(workbench.folder, "neutralization.grafcet"), "utf8");
+    assert.equal(spec, gradus("convert", path, "-o", "-", "--accept", "handover"));
   });
 
   test("in a folder that nobody trusts, its own settings say nothing about the server", async () => {
