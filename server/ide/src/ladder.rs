@@ -10,6 +10,11 @@ use source::Diagnostic;
 
 use crate::Names;
 
+/// How many hints of one kind are told. A plant has thousands of rungs that read
+/// a coil before and after it is written; nobody goes through them one by one,
+/// and editors draw every one of them anew after each keystroke.
+const HINTS: usize = 100;
+
 /// A ladder that somebody looks at: its text, what was read from it and what
 /// was recovered.
 #[derive(Debug)]
@@ -134,16 +139,12 @@ impl Ladder {
     }
 
     /// Everything there is to say about the ladder, in the order of the places:
-    /// about its text and about its meaning.
-    pub fn findings(&self, budget: &Budget) -> Vec<Diagnostic> {
-        let conditions = &self.analysis.conditions;
+    /// about its text and about its meaning. Where there are hundreds of hints of
+    /// one kind the first of them stand for all.
+    pub fn findings(&self) -> Vec<Diagnostic> {
         let mut found = self.diagnostics().to_vec();
         if self.is_known() {
-            found.extend(recovery::findings::findings(
-                self.program(),
-                conditions,
-                budget,
-            ));
+            found.extend(self.analysis.findings(HINTS));
         }
         found.sort_by_key(|finding| (finding.span, finding.code));
         found

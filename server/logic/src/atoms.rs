@@ -1,7 +1,10 @@
 use std::hash::{Hash, Hasher};
-use std::sync::Arc;
+use std::ops::Bound;
 
-use foldhash::HashMap;
+use foldhash::fast::RandomState;
+use imbl::ordmap::DiffItem;
+use imbl::shared_ptr::DefaultSharedPtr;
+use imbl::{GenericHashMap, OrdMap};
 
 use crate::{Atom, Name};
 
@@ -33,35 +36,41 @@ const ROOM: u64 = 1 << 32;
 /// of that table to another atom: a function over the atoms of the earlier
 /// table means the same in this one if all its atoms are still there.
 ///
-/// Clones share what they hold until one of them is changed.
+/// Clones share what they hold, and when one of them is changed, all that did
+/// not change.
 #[derive(Clone, Debug, Default)]
 pub struct Atoms {
-    table: Arc<Table>,
+    table: Table,
     /// The table whose numbers are given again.
-    earlier: Option<Arc<Table>>,
+    earlier: Option<Table>,
     /// The numbers that were asked for, where somebody wants to know.
     asked: Option<Vec<AtomId>>,
 }
 
 #[derive(Clone, Debug, Default)]
 struct Table {
-    /// In ascending order.
-    listed: Vec<(AtomId, Atom)>,
-    ids: HashMap<Atom, AtomId>,
+    listed: OrdMap<AtomId, Atom>,
+    ids: GenericHashMap<Atom, AtomId, RandomState, DefaultSharedPtr>,
 }
 
 impl Table {
-    fn place(&self, id: AtomId) -> Result<usize, usize> {
-        self.listed.binary_search_by_key(&id, |(id, _)| *id)
-    }
-
-    fn push(&mut self, id: AtomId, atom: Atom) {
-        self.listed.push((id, atom.clone()));
+    fn insert(&mut self, id: AtomId, atom: Atom) {
+        self.listed.insert(id, atom.clone());
         self.ids.insert(atom, id);
     }
 
+    fn remove(&mut self, id: AtomId) {
+        if let Some(atom) = self.listed.remove(&id) {
+            self.ids.remove(&atom);
+        }
+    }
+
     fn last(&self) -> u64 {
-        self.listed.last().map_or(0, |(id, _)| id.0)
+        self.listed.get_max().map_or(0, |(id, _)| id.0)
+    }
+
+    fn is_same(&self, other: &Self) -> bool {
+        self.listed.ptr_eq(&other.listed)
     }
 }
 
@@ -75,21 +84,69 @@ impl Atoms {
     /// `earlier`. As many as possible keep their numbers.
     pub fn following(earlier: &Self, order: Vec<Atom>) -> Self {
         let was = &earlier.table;
-        let same = was.listed.len() == order.len()
-            && was
-                .listed
-                .iter()
-                .zip(&order)
-                .all(|((_, was), is)| was == is);
+        let same =
+            was.listed.len() == order.len() && was.listed.values().zip(&order).all(|(a, b)| a == b);
         let table = match same {
-            true => Arc::clone(was),
-            false => Arc::new(numbered(order, was)),
+            true => was.clone(),
+            false => numbered(order, was),
         };
         Self {
             table,
-            earlier: Some(Arc::clone(was)),
+            earlier: Some(was.clone()),
             asked: None,
         }
+    }
+
+    /// The same table, to be changed atom by atom; it follows this one.
+    pub fn editing(&self) -> Self {
+        Self {
+            table: self.table.clone(),
+            earlier: Some(self.table.clone()),
+            asked: None,
+        }
+    }
+
+    /// Takes an atom out.
+    pub fn remove(&mut self, id: AtomId) {
+        self.table.remove(id);
+    }
+
+    /// Puts back an atom that was taken out, where the order allows it.
+    pub fn put_back(&mut self, id: AtomId, atom: Atom) {
+        self.table.insert(id, atom);
+    }
+
+    /// Takes out all atoms behind `last`.
+    pub fn end_at(&mut self, last: Option<AtomId>) {
+        while let Some((id, _)) = self.table.listed.get_max()
+            && Some(*id) > last
+        {
+            let id = *id;
+            self.table.remove(id);
+        }
+    }
+
+    /// Puts a new atom right behind another, or before all. `None` if there is
+    /// no room.
+    pub fn insert_behind(&mut self, other: Option<AtomId>, atom: Atom) -> Option<AtomId> {
+        let least = other.map_or(0, |it| it.0);
+        let next = self.next_behind(AtomId(least));
+        let step = match next {
+            Some(next) => step_between(least, next.0, 1),
+            None => ROOM,
+        };
+        let id = unused(self.earlier.as_ref(), least.checked_add(step.max(1))?);
+        if next.is_some_and(|next| next <= id) {
+            return None;
+        }
+        self.table.insert(id, atom);
+        Some(id)
+    }
+
+    /// The atom behind the number `id`.
+    pub fn next_behind(&self, id: AtomId) -> Option<AtomId> {
+        let behind = (Bound::Excluded(id), Bound::Unbounded);
+        self.table.listed.range(behind).next().map(|(id, _)| *id)
     }
 
     /// Ends the giving again of earlier numbers: the table is whole.
@@ -100,22 +157,18 @@ impl Atoms {
 
     /// Whether both hold the same atoms under the same numbers.
     pub fn is_same(&self, other: &Self) -> bool {
-        Arc::ptr_eq(&self.table, &other.table) || self.table.listed == other.table.listed
+        self.table.is_same(&other.table) || self.table.listed == other.table.listed
     }
 
     /// Atoms of this table that have another number in `other`, or none, in
     /// order.
     pub fn missing_in(&self, other: &Self) -> Vec<AtomId> {
-        if Arc::ptr_eq(&self.table, &other.table) {
-            return Vec::new();
-        }
-        let mut others = other.table.listed.iter().peekable();
-        let is_missing = |(id, atom): &&(AtomId, Atom)| {
-            while others.next_if(|(other, _)| other < id).is_some() {}
-            others.next_if(|it| it.0 == *id && it.1 == *atom).is_none()
-        };
-        let missing = self.table.listed.iter().filter(is_missing);
-        missing.map(|(id, _)| *id).collect()
+        let differences = self.table.listed.diff(&other.table.listed);
+        let missing = differences.filter_map(|difference| match difference {
+            DiffItem::Remove(id, _) | DiffItem::Update { old: (id, _), .. } => Some(*id),
+            DiffItem::Add(..) => None,
+        });
+        missing.collect()
     }
 
     /// Begins to take down which atoms are asked for by adding them.
@@ -135,7 +188,7 @@ impl Atoms {
             Some(id) => id,
             None => {
                 let id = self.next(&atom);
-                Arc::make_mut(&mut self.table).push(id, atom);
+                self.table.insert(id, atom);
                 id
             }
         };
@@ -153,7 +206,7 @@ impl Atoms {
         };
         match earlier.ids.get(atom) {
             Some(id) if id.0 > last => *id,
-            _ => unused(earlier, last + ROOM),
+            _ => unused(Some(earlier), last + ROOM),
         }
     }
 
@@ -174,18 +227,23 @@ impl Atoms {
 
     /// The atom with a number of this table.
     pub fn atom(&self, id: AtomId) -> &Atom {
-        &self.table.listed[self.place(id)].1
+        &self.table.listed[&id]
     }
 
-    /// The place of an atom of this table in its order, from 0.
+    /// The place of an atom of this table in its order, from 0. Counts those
+    /// before it.
     pub fn place(&self, id: AtomId) -> usize {
-        // A number of another table is behind all of this one.
-        self.table.place(id).unwrap_or(self.len())
+        self.table.listed.range(..id).count()
     }
 
-    /// The atom at a place of the order.
+    /// The atom at a place of the order. Counts those before it.
     pub fn at(&self, place: usize) -> Option<AtomId> {
-        self.table.listed.get(place).map(|(id, _)| *id)
+        self.table.listed.keys().nth(place).copied()
+    }
+
+    /// The last atom.
+    pub fn last(&self) -> Option<AtomId> {
+        self.table.listed.get_max().map(|(id, _)| *id)
     }
 
     /// All atoms with their numbers, in order.
@@ -205,9 +263,9 @@ impl Atoms {
 }
 
 /// The first number from `id` on that no atom of `earlier` has.
-fn unused(earlier: &Table, id: u64) -> AtomId {
+fn unused(earlier: Option<&Table>, id: u64) -> AtomId {
     let mut id = AtomId(id);
-    while earlier.place(id).is_ok() {
+    while earlier.is_some_and(|it| it.listed.contains_key(&id)) {
         id.0 += 1;
     }
     id
@@ -233,9 +291,9 @@ fn spaced(order: Vec<Atom>, earlier: &Table) -> Table {
     let mut table = Table::default();
     let mut last = start;
     for atom in order {
-        let id = unused(earlier, last + ROOM);
+        let id = unused(Some(earlier), last + ROOM);
         last = id.0;
-        table.push(id, atom);
+        table.insert(id, atom);
     }
     table
 }
@@ -243,34 +301,45 @@ fn spaced(order: Vec<Atom>, earlier: &Table) -> Table {
 /// Atoms without a number get one between those of their neighbours. `None` if
 /// there is no room.
 fn squeezed(order: &[Atom], kept: &[Option<AtomId>], earlier: &Table) -> Option<Table> {
-    let mut table = Table::default();
-    table.listed.reserve(order.len());
-    table.ids.reserve(order.len());
+    let mut table = earlier.clone();
+    let mut staying = kept.iter().flatten().peekable();
+    for id in earlier.listed.keys() {
+        if staying.next_if(|it| *it == id).is_none() {
+            table.remove(*id);
+        }
+    }
+    let mut last = 0;
     let mut at = 0;
     while at < order.len() {
         if let Some(id) = kept[at] {
-            table.push(id, order[at].clone());
+            last = id.0;
             at += 1;
             continue;
         }
         let end = (at..order.len()).find(|&it| kept[it].is_some());
-        let count = (end.unwrap_or(order.len()) - at) as u64;
-        let step = match end.and_then(|end| kept[end]) {
-            // A little nearer to the left: new names mostly follow each other.
-            Some(next) => (next.0 - table.last()) / (count + 1).max(3),
+        let count = end.unwrap_or(order.len()) - at;
+        let next = end.and_then(|end| kept[end]);
+        let step = match next {
+            Some(next) => step_between(last, next.0, count as u64),
             None => ROOM,
         };
-        for atom in &order[at..at + count as usize] {
-            let id = unused(earlier, table.last().checked_add(step.max(1))?);
-            table.push(id, atom.clone());
+        for atom in &order[at..at + count] {
+            let id = unused(Some(earlier), last.checked_add(step.max(1))?);
+            table.insert(id, atom.clone());
+            last = id.0;
         }
-        at += count as usize;
-        let next = end.and_then(|end| kept[end]);
-        if next.is_some_and(|next| table.last() >= next.0) {
+        at += count;
+        if next.is_some_and(|next| last >= next.0) {
             return None;
         }
     }
     Some(table)
+}
+
+/// How far apart `count` numbers are put between two others: a little nearer to
+/// the lower, since new names mostly follow each other.
+fn step_between(last: u64, next: u64, count: u64) -> u64 {
+    (next - last) / (count + 1).max(3)
 }
 
 /// The numbers of a longest ascending part of `numbers`, in their places; all

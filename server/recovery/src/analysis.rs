@@ -3,9 +3,11 @@ use std::sync::{Arc, OnceLock};
 
 use ladder::{Class, Program, Role};
 use logic::{AtomId, Budget, Function, Name};
+use source::Diagnostic;
 
 use crate::conditions::{Conditions, Variable, conditions, conditions_after};
 use crate::conversion::Sums;
+use crate::findings::Findings;
 use crate::groups::{Group, groups};
 use crate::registers::{Register, registers};
 use crate::states::{States, states};
@@ -25,13 +27,24 @@ pub struct Analysis {
     pub registers: Vec<Register>,
     recovered: OnceLock<Arc<Recovered>>,
     /// What was known before a change.
-    earlier: Option<Arc<Recovered>>,
+    earlier: Earlier,
+    findings: OnceLock<Arc<Findings>>,
     budget: Budget,
     /// Atoms that the condition of another variable, a timer or a number
     /// depends on.
     read: OnceLock<HashSet<AtomId>>,
     /// What conversions have put into words.
     pub(crate) sums: Sums,
+}
+
+/// What was known of a program before it was changed.
+#[derive(Clone, Debug, Default)]
+struct Earlier {
+    recovered: Option<Arc<Recovered>>,
+    findings: Option<Arc<Findings>>,
+    /// The variables that were touched since the findings were made; `None` if
+    /// it may have been any.
+    touched: Option<Vec<AtomId>>,
 }
 
 /// What is recovered of a program's states.
@@ -61,7 +74,8 @@ pub struct Anew {
 /// Recovers everything from `program`. When `budget` is cancelled the answer
 /// comes early and is not complete.
 pub fn analyse(program: &Arc<Program>, budget: &Budget) -> Analysis {
-    analysed(program, conditions(program, budget), None, budget)
+    let conditions = conditions(program, budget);
+    analysed(program, conditions, Earlier::default(), budget)
 }
 
 /// The same for a program that was changed since `before`. Whatever the change
@@ -69,15 +83,29 @@ pub fn analyse(program: &Arc<Program>, budget: &Budget) -> Analysis {
 /// numbers of atoms.
 pub fn analyse_after(before: &Analysis, program: &Arc<Program>, budget: &Budget) -> Analysis {
     let conditions = conditions_after(&before.program, &before.conditions, program, budget);
-    let recovered = before.recovered.get().filter(|it| it.is_whole).cloned();
-    let recovered = recovered.or_else(|| before.earlier.clone());
-    analysed(program, conditions, recovered, budget)
+    let recovered = before.recovered.get().filter(|it| it.is_whole);
+    let findings = before.findings.get().filter(|it| it.is_whole());
+    let touched = match findings {
+        Some(_) => Some(Vec::new()),
+        None => before.earlier.touched.clone(),
+    };
+    let earlier = Earlier {
+        recovered: recovered.or(before.earlier.recovered.as_ref()).cloned(),
+        findings: findings.or(before.earlier.findings.as_ref()).cloned(),
+        touched: touched
+            .zip(conditions.touched.as_ref())
+            .map(|(mut all, new)| {
+                all.extend(new);
+                all
+            }),
+    };
+    analysed(program, conditions, earlier, budget)
 }
 
 fn analysed(
     program: &Arc<Program>,
     mut conditions: Conditions,
-    earlier: Option<Arc<Recovered>>,
+    earlier: Earlier,
     budget: &Budget,
 ) -> Analysis {
     let registers = registers(program, &mut conditions, budget);
@@ -87,6 +115,7 @@ fn analysed(
         conditions,
         registers,
         recovered: OnceLock::new(),
+        findings: OnceLock::new(),
         earlier,
         budget: budget.clone(),
         read: OnceLock::new(),
@@ -147,9 +176,26 @@ impl Analysis {
         }
     }
 
+    /// What its conditions reveal, in the order of the places. Of the hints that
+    /// have one code no more than the first `most` are told; the last of them
+    /// says how many there are.
+    pub fn findings(&self, most: usize) -> Vec<Diagnostic> {
+        let findings = self.findings.get_or_init(|| {
+            let (program, conditions) = (&self.program, &self.conditions);
+            let found = match (&self.earlier.findings, &self.earlier.touched) {
+                (Some(earlier), Some(touched)) => {
+                    earlier.after(touched, program, conditions, &self.budget)
+                }
+                (earlier, _) => Findings::of(program, conditions, earlier.as_deref(), &self.budget),
+            };
+            found.into()
+        });
+        findings.told(&self.program, most)
+    }
+
     fn recovered(&self) -> &Recovered {
         self.recovered.get_or_init(|| {
-            let was = self.earlier.as_deref();
+            let was = self.earlier.recovered.as_deref();
             let (conditions, budget) = (&self.conditions, &self.budget);
             let states = states(conditions, was.map(|it| &it.states), budget);
             let (successions, comparisons) = ranked(

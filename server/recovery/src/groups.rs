@@ -6,7 +6,7 @@
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
-use logic::{Atom, AtomId, Atoms, Name};
+use logic::{Atom, AtomId, Name};
 use petgraph::Direction;
 use petgraph::algo::kosaraju_scc;
 use petgraph::graph::{DiGraph, NodeIndex};
@@ -49,8 +49,9 @@ pub fn groups(
     }
     let mut members: BTreeMap<usize, Vec<Name>> = BTreeMap::new();
     for state in &states.states {
-        let class = classes.class(state.atom);
-        members.entry(class).or_default().push(state.name.clone());
+        if let Some(class) = classes.class(state.atom) {
+            members.entry(class).or_default().push(state.name.clone());
+        }
     }
     for (at, register) in registers.iter().enumerate() {
         let class = classes.register_class(at);
@@ -198,59 +199,65 @@ fn mode_sets(graph: &DiGraph<(), ()>) -> Vec<Vec<NodeIndex>> {
     sets
 }
 
-/// Classes of atoms and registers that depend on each other.
+/// Classes of variables and registers that depend on each other.
 struct Classes<'c> {
     union: UnionFind<usize>,
-    atoms: &'c Atoms,
+    conditions: &'c Conditions,
 }
 
 impl Classes<'_> {
     fn join(&mut self, a: AtomId, b: AtomId) {
-        self.union.union(self.atoms.place(a), self.atoms.place(b));
+        if let (Some(a), Some(b)) = (self.conditions.place(a), self.conditions.place(b)) {
+            self.union.union(a, b);
+        }
     }
 
-    fn class(&mut self, atom: AtomId) -> usize {
-        self.union.find_mut(self.atoms.place(atom))
+    fn class(&mut self, atom: AtomId) -> Option<usize> {
+        let place = self.conditions.place(atom)?;
+        Some(self.union.find_mut(place))
     }
 
     fn register_class(&mut self, register: usize) -> usize {
-        self.union.find_mut(self.atoms.len() + register)
+        self.union
+            .find_mut(self.conditions.variables.len() + register)
     }
 }
 
 /// Joins what a coil writes with the written variables that it reads. Inputs
 /// join nothing: a stop button does not make two machines one.
 fn dependent<'c>(conditions: &'c Conditions, registers: &[Register]) -> Classes<'c> {
-    let atoms = &conditions.atoms;
-    let mut union = UnionFind::new(atoms.len() + registers.len());
+    let variables = conditions.variables.len();
+    let mut union = UnionFind::new(variables + registers.len());
     let place: HashMap<&Name, usize> = registers
         .iter()
         .enumerate()
         .map(|(at, register)| (&register.name, at))
         .collect();
     let mut join = |to: usize, atom: AtomId| {
-        if conditions.variable(atom).is_some() {
-            union.union(to, atoms.place(atom));
+        if let Some(place) = conditions.place(atom) {
+            union.union(to, place);
         }
         if let Some(timer) = conditions.timers.get(&atom)
             && let Ok(input) = &timer.input
         {
-            for read in input.support() {
-                if conditions.variable(*read).is_some() {
-                    union.union(to, atoms.place(*read));
-                }
+            for place in input
+                .support()
+                .iter()
+                .filter_map(|it| conditions.place(*it))
+            {
+                union.union(to, place);
             }
         }
         if let Atom::Comparison(comparison) = conditions.atoms.atom(atom)
             && let Some(register) = place.get(&comparison.left)
         {
-            union.union(to, atoms.len() + register);
+            union.union(to, variables + register);
         }
     };
-    for variable in &conditions.variables {
+    for (at, variable) in conditions.variables.iter().enumerate() {
         let Ok(next) = &variable.next else { continue };
         for atom in next.support() {
-            join(atoms.place(variable.atom), *atom);
+            join(at, *atom);
         }
     }
     for write in &conditions.register_writes {
@@ -259,8 +266,8 @@ fn dependent<'c>(conditions: &'c Conditions, registers: &[Register]) -> Classes<
         };
         let Ok(guard) = &write.guard else { continue };
         for atom in guard.support() {
-            join(atoms.len() + register, *atom);
+            join(variables + register, *atom);
         }
     }
-    Classes { union, atoms }
+    Classes { union, conditions }
 }

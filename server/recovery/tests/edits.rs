@@ -6,7 +6,7 @@
 use std::fmt::Write as _;
 use std::sync::Arc;
 
-use ladder::Program;
+use ladder::{Edition, Program, reread};
 use logic::{Budget, Function, Stop, notation};
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -101,6 +101,18 @@ fn said(analysis: &Analysis) -> String {
     for group in analysis.groups() {
         let _ = write!(out, "\n{group:?}");
     }
+    for finding in analysis.findings(usize::MAX) {
+        let related: Vec<_> = finding
+            .related
+            .iter()
+            .map(|it| (it.span, &it.message))
+            .collect();
+        let _ = write!(
+            out,
+            "\n{} {:?} {} {related:?}",
+            finding.code, finding.span, finding.message
+        );
+    }
     out
 }
 
@@ -145,28 +157,66 @@ fn lines() -> impl Strategy<Value = String> {
     })
 }
 
+/// What somebody does to a line.
+#[derive(Clone, Debug)]
+enum Edit {
+    Insert(String),
+    Replace(String),
+    Remove,
+    /// One of its digits becomes another, and with it a name another name.
+    Type(Index, u8),
+}
+
+fn edit() -> impl Strategy<Value = Edit> {
+    prop_oneof![
+        1 => lines().prop_map(Edit::Insert),
+        1 => lines().prop_map(Edit::Replace),
+        1 => Just(Edit::Remove),
+        6 => (any::<Index>(), 0..5_u8).prop_map(|(at, digit)| Edit::Type(at, digit)),
+    ]
+}
+
+fn typed(line: &str, digit: Index, number: u8) -> String {
+    let digits: Vec<usize> = line
+        .match_indices(|c: char| c.is_ascii_digit())
+        .map(|it| it.0)
+        .collect();
+    let mut line = line.to_owned();
+    if !digits.is_empty() {
+        let at = digits[digit.index(digits.len())];
+        line.replace_range(at..at + 1, &number.to_string());
+    }
+    line
+}
+
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(60))]
+    #![proptest_config(ProptestConfig::with_cases(120))]
     #[test]
     fn any_edits_leave_what_the_last_text_says(
         mut text in vec(lines(), 0..14),
-        edits in vec((any::<Index>(), prop_oneof![Just(None), lines().prop_map(Some)], 0..3), 1..8),
+        edits in vec((any::<Index>(), edit()), 1..8),
         asked in vec(any::<bool>(), 8),
     ) {
         let budget = Budget::default();
-        let mut analysis = analyse(&read(&text.join("\n")), &budget);
-        for ((at, line, kind), asked) in edits.into_iter().zip(asked) {
+        let mut edition = Edition::new(text.join("\n").into());
+        let mut analysis = analyse(&edition.reading.program, &budget);
+        for ((at, edit), asked) in edits.into_iter().zip(asked) {
             if asked {
                 analysis.groups();
+                analysis.findings(usize::MAX);
             }
             let at = at.index(text.len() + 1);
-            match line {
-                Some(line) if kind == 0 && at < text.len() => text[at] = line,
-                Some(line) => text.insert(at, line),
-                None if at < text.len() => drop(text.remove(at)),
-                None => {}
+            match edit {
+                Edit::Insert(line) => text.insert(at, line),
+                Edit::Replace(line) if at < text.len() => text[at] = line,
+                Edit::Remove if at < text.len() => drop(text.remove(at)),
+                Edit::Type(digit, number) if at < text.len() => {
+                    text[at] = typed(&text[at], digit, number);
+                }
+                _ => {}
             }
-            analysis = analyse_after(&analysis, &read(&text.join("\n")), &budget);
+            edition = reread(&edition, text.join("\n").into());
+            analysis = analyse_after(&analysis, &edition.reading.program, &budget);
         }
         let at_once = analyse(&read(&text.join("\n")), &budget);
         prop_assert_eq!(said(&analysis), said(&at_once));
@@ -189,10 +239,12 @@ fn plant(machines: usize) -> Vec<String> {
 fn cost(machines: usize, line: usize, edited: &str) -> Anew {
     let budget = Budget::default();
     let mut text = plant(machines);
-    let before = analyse(&read(&text.join("\n")), &budget);
+    let edition = Edition::new(text.join("\n").into());
+    let before = analyse(&edition.reading.program, &budget);
     assert_eq!(before.anew().rungs, 3 * machines);
     text[line] = edited.to_owned();
-    analyse_after(&before, &read(&text.join("\n")), &budget).anew()
+    let edition = reread(&edition, text.join("\n").into());
+    analyse_after(&before, &edition.reading.program, &budget).anew()
 }
 
 #[test]

@@ -76,3 +76,26 @@ fn findings_are_drawn_under_the_rungs_they_speak_of() {
         }
     }
 }
+
+#[test]
+fn of_many_hints_of_one_kind_the_first_are_told_and_the_others_counted() {
+    let rungs: String = (0..9)
+        .map(|at| format!("rung: q{at} -> y{at}\nrung: a{at} -> q{at}\nrung: q{at} -> z{at}\n"))
+        .collect();
+    let inputs: String = (0..9).map(|at| format!("input a{at}\n")).collect();
+    let program = ladder::read(format!("{inputs}{rungs}").as_bytes()).program;
+    let analysis = recovery::analyse(&program, &Budget::default());
+    let told: Vec<String> = analysis
+        .findings(2)
+        .into_iter()
+        .map(|it| it.message)
+        .collect();
+    assert_eq!(
+        told,
+        [
+            "`q0` is read here before rung 1 of Main writes it, and again after: the two see different scans",
+            "`q1` is read here before rung 4 of Main writes it, and again after: the two see different scans (and 7 more like it, which `gradus check` lists)",
+        ]
+    );
+    assert_eq!(analysis.findings(usize::MAX).len(), 9);
+}

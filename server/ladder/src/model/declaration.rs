@@ -105,6 +105,17 @@ impl Declarations {
         self.places.get(name).map(|&at| &self.list[at])
     }
 
+    /// The place of the declaration of `name` in the order of the source.
+    pub fn place(&self, name: &str) -> Option<usize> {
+        self.places.get(name).copied()
+    }
+
+    /// Whether both declare the same, perhaps in other places of the text, and
+    /// that can be told at a glance.
+    pub fn is_moved(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.places, &other.places)
+    }
+
     /// All, in the order of the source.
     pub fn iter(&self) -> std::slice::Iter<'_, Declaration> {
         self.list.iter()

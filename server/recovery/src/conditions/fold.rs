@@ -21,20 +21,38 @@ pub(super) fn variables(
         by_target.entry(write.target).or_default().push(write);
     }
     let mut folded = 0;
-    let written = by_target
-        .into_iter()
-        .filter(|(_, writes)| writes.iter().any(is_coil_or_copy));
-    let variables = written.map(|(atom, writes)| {
+    let variables = by_target.into_iter().filter_map(|(atom, writes)| {
         let was = earlier.and_then(|earlier| earlier.kept(atom));
-        match was.and_then(|was| kept(was, &writes)) {
-            Some(kept) => kept,
-            None => {
-                folded += 1;
-                variable(atom, writes, walk).into()
-            }
-        }
+        let after = variable_after(atom, writes, was, walk)?;
+        folded += usize::from(after.is_anew);
+        Some(after.variable)
     });
     (variables.collect(), folded)
+}
+
+/// A variable after an edit.
+pub(super) struct After {
+    pub(super) variable: Arc<Variable>,
+    /// Whether its writes were folded.
+    pub(super) is_anew: bool,
+}
+
+/// The variable of `writes`, which stand in the order of the scan; that of
+/// `was` if it is written as it was. `None` if no coil writes it.
+pub(super) fn variable_after(
+    atom: AtomId,
+    writes: Vec<Write>,
+    was: Option<&Arc<Variable>>,
+    walk: &mut Walk<'_>,
+) -> Option<After> {
+    if !writes.iter().any(is_coil_or_copy) {
+        return None;
+    }
+    let kept = was.and_then(|was| kept(was, &writes));
+    Some(After {
+        is_anew: kept.is_none(),
+        variable: kept.unwrap_or_else(|| variable(atom, writes, walk).into()),
+    })
 }
 
 /// The variable as it was, if it is written as it was, though perhaps in rungs

@@ -19,6 +19,7 @@
 
 mod fold;
 mod naming;
+mod patch;
 mod power;
 mod rung;
 mod sequence;
@@ -30,13 +31,17 @@ mod writes;
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
+use imbl::Vector;
 use ladder::{Program, flow};
 use logic::{AtomId, Atoms, Budget, Expr, Function, Name, Stop};
 
+pub(crate) use naming::{Names, Uses};
+use patch::Beyond;
 pub use power::{Powers, Walk, powers};
-use rustc_hash::FxHashMap;
 use sequence::{Earlier, Rungs, Solution};
+use source::Diagnostic;
 pub use timers::TimerLaw;
+use visits::{Visited, Visits};
 pub use writes::{Place, RegisterWrite, Write, WriteKind};
 
 /// The conditions of a whole program.
@@ -45,7 +50,7 @@ pub struct Conditions {
     /// Every atom that occurs: coils first, then inputs, then the rest.
     pub atoms: Atoms,
     /// Variables that a coil writes, in the order of their atoms.
-    pub variables: Vec<Arc<Variable>>,
+    pub variables: Vector<Arc<Variable>>,
     /// Atoms that stand for what an unknown box does.
     pub opaque: HashSet<AtomId>,
     /// Laws of timers, by the atom of their output.
@@ -54,9 +59,17 @@ pub struct Conditions {
     pub register_writes: Vec<RegisterWrite>,
     /// What was computed anew.
     pub work: Work,
-    places: FxHashMap<AtomId, usize>,
     rungs: Rungs,
-    pub(crate) execution: flow::Execution,
+    pub(crate) names: Names,
+    /// What is wrong with its calls and jumps.
+    pub(crate) steering: Vec<Diagnostic>,
+    visited: Arc<Visited>,
+    beyond: Arc<Beyond>,
+    /// The variables that an edit has touched, themselves or where they are
+    /// used; `None` if it may have been any.
+    pub(crate) touched: Option<Vec<AtomId>>,
+    /// The last atom that conditions ask for; registers may ask for more.
+    last_atom: Option<AtomId>,
     /// What each operation was allowed, if nobody ended the work early.
     allowed: Option<[usize; 2]>,
 }
@@ -123,12 +136,18 @@ impl Variable {
 impl Conditions {
     /// The variable that `atom` is, if coils write it.
     pub fn variable(&self, atom: AtomId) -> Option<&Variable> {
-        self.places.get(&atom).map(|&at| &*self.variables[at])
+        self.kept(atom).map(Arc::as_ref)
+    }
+
+    /// The place among the variables of the one that `atom` is.
+    pub fn place(&self, atom: AtomId) -> Option<usize> {
+        let place = self.variables.binary_search_by_key(&atom, |it| it.atom);
+        place.ok()
     }
 
     /// The variable that `atom` is, to be kept.
-    fn kept(&self, atom: AtomId) -> Option<&Arc<Variable>> {
-        self.places.get(&atom).map(|&at| &self.variables[at])
+    pub(crate) fn kept(&self, atom: AtomId) -> Option<&Arc<Variable>> {
+        self.variables.get(self.place(atom)?)
     }
 
     /// The variable called `name`, if coils write it.
@@ -141,17 +160,15 @@ impl Conditions {
         self.allowed.is_some()
     }
 
-    /// The contacts of a rung: the element of each, and its variable. None of a
-    /// rung that is never visited.
-    pub(crate) fn contacts(
-        &self,
-        routine: usize,
-        rung: usize,
-    ) -> impl Iterator<Item = (usize, AtomId)> {
-        let solved = self.rungs.get((routine, rung));
-        solved
-            .into_iter()
-            .flat_map(|it| it.contacts.iter().copied())
+    /// The place of the first visit to a rung in the order of the scan; `None`
+    /// if no scan solves it.
+    pub(crate) fn solved_at(&self, rung: (usize, usize)) -> Option<usize> {
+        self.visited.get(rung).in_scan()
+    }
+
+    /// Whether the rung is ever solved, or shown although nothing leads to it.
+    pub(crate) fn is_visited(&self, rung: (usize, usize)) -> bool {
+        !matches!(self.visited.get(rung), Visits::Never)
     }
 
     /// A function as a canonical expression.
@@ -180,20 +197,25 @@ pub fn conditions_after(
     program: &Program,
     budget: &Budget,
 ) -> Conditions {
-    let earlier = (earlier.allowed == Some(allowed(budget))).then_some(Earlier {
+    if earlier.allowed != Some(allowed(budget)) {
+        return computed(program, None, budget);
+    }
+    let earlier = Earlier {
         program: before,
         conditions: earlier,
-    });
-    computed(program, earlier, budget)
+    };
+    patch::patched(earlier, program, budget)
+        .unwrap_or_else(|| computed(program, Some(earlier), budget))
 }
 
 fn computed(program: &Program, earlier: Option<Earlier<'_>>, budget: &Budget) -> Conditions {
     let execution = flow::execution(program);
+    let names = Names::of(program);
     let Solution {
         rungs,
         mut atoms,
         anew,
-    } = sequence::solve_all(program, &execution, earlier, budget);
+    } = sequence::solve_all(program, &execution, &names, earlier, budget);
     let mut opaque = HashSet::new();
     let mut walk = Walk {
         atoms: &mut atoms,
@@ -204,26 +226,30 @@ fn computed(program: &Program, earlier: Option<Earlier<'_>>, budget: &Budget) ->
     let (writes, register_writes) = writes::writes(&happening.occurrences, program, &mut walk);
     let was = earlier.map(|earlier| earlier.conditions);
     let (variables, folded) = fold::variables(writes, was, &mut walk);
-    let places = variables
-        .iter()
-        .enumerate()
-        .map(|(at, variable)| (variable.atom, at))
-        .collect();
     Conditions {
-        variables,
+        variables: variables.into(),
         timers: happening.timers,
         register_writes,
         opaque,
-        places,
+        last_atom: atoms.last(),
+        beyond: Beyond::of(&rungs, &names, &atoms).into(),
         atoms,
         work: Work {
             rungs: anew,
             variables: folded,
         },
         rungs,
-        execution,
-        allowed: (!budget.cancel.is_cancelled()).then(|| allowed(budget)),
+        names,
+        steering: execution.diagnostics,
+        touched: None,
+        visited: happening.visited.into(),
+        allowed: whole(budget),
     }
+}
+
+/// What each operation was allowed, if nobody ended the work early.
+fn whole(budget: &Budget) -> Option<[usize; 2]> {
+    (!budget.cancel.is_cancelled()).then(|| allowed(budget))
 }
 
 fn allowed(budget: &Budget) -> [usize; 2] {

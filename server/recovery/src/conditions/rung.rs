@@ -31,8 +31,6 @@ pub(super) struct Solved {
     pub(super) opaque: HashSet<AtomId>,
     /// Every atom that it asks for, in the order of first asking.
     pub(super) atoms: Vec<AtomId>,
-    /// The element of every contact, and its variable.
-    pub(super) contacts: Vec<(usize, AtomId)>,
     /// Whether it depends on the zone around it: several of its coils write
     /// the same variable, so that the later see what the earlier did there.
     pub(super) rewrites: bool,
@@ -67,6 +65,16 @@ pub(super) struct Event {
     pub(super) effective: Option<Result<Function, Stop>>,
 }
 
+impl Solved {
+    /// What its coils write.
+    pub(super) fn targets(&self) -> impl Iterator<Item = AtomId> {
+        self.events.iter().filter_map(|event| match event.effect {
+            Effect::Coil(target, _) => Some(target),
+            Effect::Assign(_) | Effect::Unknown { .. } => None,
+        })
+    }
+}
+
 /// Solves a rung in a zone that is on under the condition `zone`.
 pub(super) fn solve(
     network: &Network,
@@ -96,7 +104,6 @@ fn solved(network: &Network, zone: &Result<Function, Stop>, walk: &mut Walk<'_>)
         steering: Vec::new(),
         opaque: HashSet::new(),
         atoms: Vec::new(),
-        contacts: Vec::new(),
         rewrites: solving.rewrites(),
     };
     for (at, element) in network.elements() {
@@ -106,10 +113,6 @@ fn solved(network: &Network, zone: &Result<Function, Stop>, walk: &mut Walk<'_>)
             found.events.push(event.into());
         }
         let power = || solving.powers.at(at).cloned();
-        if let ElementKind::Contact(contact) = &element.kind {
-            let atom = walk.atoms.add_variable(&contact.operand.name);
-            found.contacts.push((at.index(), atom));
-        }
         if let ElementKind::Timer(timer) = &element.kind {
             found.timers.push(Timed {
                 element: at.index(),

@@ -9,12 +9,14 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use ladder::{Program, Rung, flow};
+use imbl::Vector;
+use ladder::{Program, Routine, Rung, flow};
 use logic::{Atom, AtomId, Atoms, Budget, Function};
 use rustc_hash::FxHashSet;
 
+use super::naming::Names;
 use super::rung::{self, Solved};
-use super::{Conditions, Walk, naming};
+use super::{Conditions, Walk};
 
 /// A program as it was before a change, and its conditions.
 #[derive(Clone, Copy)]
@@ -25,7 +27,7 @@ pub(super) struct Earlier<'e> {
 
 /// The rungs of a program that have been solved, by routine.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Rungs(Vec<Vec<Option<Arc<Solved>>>>);
+pub(super) struct Rungs(Vec<Vector<Option<Arc<Solved>>>>);
 
 /// All rungs that are ever visited, solved.
 pub(super) struct Solution {
@@ -43,11 +45,12 @@ const ROUNDS: usize = 4;
 pub(super) fn solve_all(
     program: &Program,
     execution: &flow::Execution,
+    names: &Names,
     earlier: Option<Earlier<'_>>,
     budget: &Budget,
 ) -> Solution {
     let visited = visited(program, execution);
-    let named = naming::order(program);
+    let named = names.order(&program.declarations);
     let mut anew = 0;
     if let Some(earlier) = earlier {
         let mut rungs = Rungs::unchanged(earlier, program);
@@ -116,7 +119,8 @@ fn order(named: &[Atom], rungs: &Rungs, visited: &[(usize, usize)], known: &Atom
 impl Rungs {
     fn none(program: &Program) -> Self {
         let routines = program.routines.iter();
-        Self(routines.map(|it| vec![None; it.rungs.len()]).collect())
+        let none = |it: &Routine| std::iter::repeat_n(None, it.rungs.len()).collect();
+        Self(routines.map(none).collect())
     }
 
     /// What is known from before the change: of each routine the rungs at its
@@ -138,7 +142,7 @@ impl Rungs {
             });
             match was {
                 Some((rungs, solved)) => aligned(rungs, solved, &routine.rungs),
-                None => vec![None; routine.rungs.len()],
+                None => std::iter::repeat_n(None, routine.rungs.len()).collect(),
             }
         });
         Self(routines.collect())
@@ -149,15 +153,32 @@ impl Rungs {
         self.0.get(routine)?.get(rung)?.as_ref()
     }
 
+    /// All rungs that have been solved, with their places.
+    pub(super) fn iter(&self) -> impl Iterator<Item = ((usize, usize), &Arc<Solved>)> {
+        self.0.iter().enumerate().flat_map(|(routine, rungs)| {
+            let rungs = rungs.iter().enumerate();
+            rungs.filter_map(move |(rung, it)| Some(((routine, rung), it.as_ref()?)))
+        })
+    }
+
+    /// Takes down what a rung says.
+    pub(super) fn set(&mut self, (routine, rung): (usize, usize), solved: Arc<Solved>) {
+        if let Some(known) = self.0.get_mut(routine).and_then(|it| it.get_mut(rung)) {
+            *known = Some(solved);
+        }
+    }
+
     /// Forgets the rungs that ask for any of these atoms.
     fn forget(&mut self, atoms: &[AtomId]) {
         if atoms.is_empty() {
             return;
         }
         let asks = |it: &Solved| it.atoms.iter().any(|it| atoms.binary_search(it).is_ok());
-        for solved in self.0.iter_mut().flatten() {
-            if solved.as_ref().is_some_and(|it| asks(it)) {
-                *solved = None;
+        for rungs in &mut self.0 {
+            let asking = rungs.iter().enumerate();
+            let asking = asking.filter(|(_, it)| it.as_ref().is_some_and(|it| asks(it)));
+            for at in asking.map(|(at, _)| at).collect::<Vec<_>>() {
+                rungs.set(at, None);
             }
         }
     }
@@ -173,10 +194,7 @@ impl Rungs {
         let always = Ok(Function::constant(true));
         let mut found = Vec::new();
         for &(routine, at) in visited {
-            let Some(solved) = self.0.get_mut(routine).and_then(|it| it.get_mut(at)) else {
-                continue;
-            };
-            if solved.is_some() || budget.cancel.is_cancelled() {
+            if self.get((routine, at)).is_some() || budget.cancel.is_cancelled() {
                 continue;
             }
             let mut walk = Walk {
@@ -185,7 +203,8 @@ impl Rungs {
                 budget,
             };
             let network = &program.routines[routine].rungs[at].network;
-            *solved = Some(rung::solve(network, &always, &mut walk).into());
+            let solved = rung::solve(network, &always, &mut walk);
+            self.set((routine, at), solved.into());
             found.push((routine, at));
         }
         found
@@ -195,9 +214,9 @@ impl Rungs {
 /// What is known of `rungs`, which stand where those of `was` stood.
 fn aligned(
     was: &[Rung],
-    solved: &[Option<Arc<Solved>>],
+    solved: &Vector<Option<Arc<Solved>>>,
     rungs: &[Rung],
-) -> Vec<Option<Arc<Solved>>> {
+) -> Vector<Option<Arc<Solved>>> {
     let alike =
         |(a, b): &(&Rung, &Rung)| Arc::ptr_eq(&a.network, &b.network) || a.network == b.network;
     let before = was.iter().zip(rungs).take_while(alike).count();
@@ -205,8 +224,11 @@ fn aligned(
     let both = was_tail.iter().rev().zip(tail.iter().rev());
     let after = both.take_while(alike).count();
     let known = |at: usize| solved.get(at).cloned().flatten();
-    let mut all: Vec<_> = (0..before).map(known).collect();
-    all.resize(rungs.len() - after, None);
-    all.extend((was.len() - after..was.len()).map(known));
-    all
+    let changed = std::iter::repeat_n(None, rungs.len() - after - before);
+    let behind = (was.len() - after..was.len()).map(known);
+    (0..before)
+        .map(known)
+        .chain(changed)
+        .chain(behind)
+        .collect()
 }

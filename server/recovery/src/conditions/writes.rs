@@ -25,7 +25,7 @@ pub struct Place {
 
 impl Place {
     /// The routine and the rung.
-    pub(super) fn rung(&self) -> (usize, usize) {
+    pub(crate) fn rung(&self) -> (usize, usize) {
         (self.routine, self.rung)
     }
 

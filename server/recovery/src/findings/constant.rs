@@ -1,21 +1,15 @@
 use ladder::ElementKind;
-use source::{Diagnostic, codes};
+use source::codes;
 
-use super::Subject;
-use crate::conditions::{Write, WriteKind};
+use super::{Found, Mark, Subject};
+use crate::conditions::{Variable, Write, WriteKind};
 
 /// Coils whose condition is always true or never true, although contacts
 /// stand before them. A coil without a contact, or behind an always-false
 /// instruction, is meant so.
-pub(super) fn find(subject: &Subject<'_>) -> Vec<Diagnostic> {
-    let writes = subject.conditions.variables.iter().flat_map(|variable| {
-        variable
-            .writes
-            .iter()
-            .map(move |write| (&variable.name, write))
-    });
-    let mut found = Vec::new();
-    for (name, write) in writes {
+pub(super) fn find(subject: &Subject<'_>, variable: &Variable, found: &mut Vec<Found>) {
+    let name = &variable.name;
+    for write in &variable.writes {
         let Ok(guard) = &write.guard else { continue };
         let is_constant = guard.is_true() || guard.is_false();
         if !is_constant
@@ -24,22 +18,21 @@ pub(super) fn find(subject: &Subject<'_>) -> Vec<Diagnostic> {
         {
             continue;
         }
-        let span = subject.target_span(write);
+        let mark = Mark::Name(write.place);
         if guard.is_true() {
-            found.push(Diagnostic::new(
+            found.push(Found::new(
                 codes::ALWAYS_TRUE,
-                span,
+                mark,
                 format!("the condition of `{name}` is always true"),
             ));
         } else if guard.is_false() && !is_switched_off(subject, write) {
-            found.push(Diagnostic::new(
+            found.push(Found::new(
                 codes::ALWAYS_FALSE,
-                span,
+                mark,
                 format!("the condition of `{name}` can never be true"),
             ));
         }
     }
-    found
 }
 
 fn has_contacts(subject: &Subject<'_>, write: &Write) -> bool {

@@ -1,20 +1,15 @@
 use ladder::CoilKind;
-use source::{Diagnostic, codes};
+use source::codes;
 
-use super::Subject;
+use super::{Found, Mark, Subject};
 use crate::conditions::{Variable, Write, WriteKind};
 
 /// Latches of which one half is missing. The other may live in another file.
-pub(super) fn find(subject: &Subject<'_>) -> Vec<Diagnostic> {
-    subject
-        .conditions
-        .variables
-        .iter()
-        .filter_map(|variable| half_latch(subject, variable))
-        .collect()
+pub(super) fn find(_: &Subject<'_>, variable: &Variable, found: &mut Vec<Found>) {
+    found.extend(half_latch(variable));
 }
 
-fn half_latch(subject: &Subject<'_>, variable: &Variable) -> Option<Diagnostic> {
+fn half_latch(variable: &Variable) -> Option<Found> {
     let (mut set, mut reset) = (None::<&Write>, None::<&Write>);
     for write in &variable.writes {
         match write.kind {
@@ -34,9 +29,9 @@ fn half_latch(subject: &Subject<'_>, variable: &Variable) -> Option<Diagnostic> 
         _ => return None,
     };
     Some(
-        Diagnostic::new(
+        Found::new(
             code,
-            subject.target_span(write),
+            Mark::Name(write.place),
             format!(
                 "`{}` is {verb} here, and nothing in this file {other} it",
                 variable.name
