@@ -12,9 +12,10 @@ use std::time::{Duration, Instant};
 
 use bench::plant::plant;
 use end_to_end::lsp::{Client, Profile};
-use tower_lsp::ls_types::request::{CodeActionRequest, HoverRequest};
+use tower_lsp::ls_types::request::{CodeActionRequest, CodeActionResolveRequest, HoverRequest};
 use tower_lsp::ls_types::{
-    CodeActionContext, CodeActionParams, HoverParams, Position, Range, TextDocumentIdentifier,
+    CodeAction, CodeActionContext, CodeActionOrCommand, CodeActionParams, HoverParams, Position,
+    Range, TextDocumentIdentifier,
 };
 
 /// Rungs of the programs that are edited.
@@ -36,16 +37,12 @@ fn main() -> std::io::Result<()> {
         out,
         "| program | what | p50 | p95 | p99 |\n|---|---|---|---|---|"
     )?;
-    for size in SIZES {
-        let session = Session::open(&executable, "plant.ladder", &plant(size));
-        for (what, times) in session.measured() {
-            writeln!(out, "| {size} rungs | {what} | {} |", percentiles(times))?;
-        }
-    }
-    if let Some((name, text)) = largest() {
-        let session = Session::open(&executable, "plant.L5X", &text);
-        for (what, times) in session.measured() {
-            writeln!(out, "| `{name}` | {what} | {} |", percentiles(times))?;
+    let plants = SIZES.map(|size| (format!("{size} rungs"), "plant.ladder", plant(size)));
+    let real = largest().map(|(name, text)| (format!("`{name}`"), "plant.L5X", text));
+    for (title, name, text) in plants.into_iter().chain(real) {
+        let rows = measured(&executable, name, &text);
+        for (what, times) in rows {
+            writeln!(out, "| {title} | {what} | {} |", percentiles(times))?;
         }
     }
     writeln!(out, "\n| memory | |\n|---|---|")?;
@@ -78,6 +75,40 @@ fn largest() -> Option<(String, String)> {
     Some((largest.file_name().to_string_lossy().into_owned(), text))
 }
 
+/// What an editor waits for while somebody works on `text`.
+fn measured(
+    executable: &str,
+    name: &'static str,
+    text: &str,
+) -> Vec<(&'static str, Vec<Duration>)> {
+    let mut typing = Session::open(executable, Profile::Eglot, name, text);
+    let keystrokes = (0..ROUNDS).map(|round| typing.keystroke(round)).collect();
+    let (ready, opened) = (typing.ready, typing.opened);
+    drop(typing);
+    // A client that asks for what an action changes when it is taken.
+    let mut asking = Session::open(executable, Profile::Neovim, name, text);
+    let after_keystrokes = (0..ROUNDS)
+        .map(|round| {
+            asking.press(round);
+            asking.hover()
+        })
+        .collect();
+    let hovers = (0..ROUNDS).map(|_| asking.hover()).collect();
+    let actions = (0..ROUNDS).map(|_| asking.actions().0).collect();
+    let taken = (0..ROUNDS / 4)
+        .filter_map(|_| asking.take_action())
+        .collect();
+    vec![
+        ("start to ready", vec![ready]),
+        ("open to findings", vec![opened]),
+        ("keystroke to findings", keystrokes),
+        ("keystroke to hover", after_keystrokes),
+        ("hover", hovers),
+        ("code actions", actions),
+        ("what an action changes", taken),
+    ]
+}
+
 /// A document in a server, just opened.
 struct Session {
     client: Client,
@@ -91,13 +122,15 @@ struct Session {
 }
 
 impl Session {
-    fn open(executable: &str, name: &'static str, text: &str) -> Self {
+    fn open(executable: &str, profile: Profile, name: &'static str, text: &str) -> Self {
         let since = Instant::now();
-        let mut client = Client::start(executable, Profile::Eglot);
+        let mut client = Client::start(executable, profile);
         let ready = since.elapsed();
         let since = Instant::now();
         client.open_plain(name, text);
-        client.diagnostics(name);
+        if profile == Profile::Eglot {
+            client.diagnostics(name);
+        }
         Self {
             client,
             name,
@@ -107,47 +140,39 @@ impl Session {
         }
     }
 
-    fn measured(mut self) -> [(&'static str, Vec<Duration>); 5] {
-        let keystrokes = (0..ROUNDS).map(|round| self.keystroke(round)).collect();
-        let at = position(self.client.text(self.name), self.middle);
-        let hovers = (0..ROUNDS).map(|_| self.hover(at)).collect();
-        let actions = (0..ROUNDS).map(|_| self.actions(at)).collect();
-        [
-            ("start to ready", vec![self.ready]),
-            ("open to findings", vec![self.opened]),
-            ("keystroke to findings", keystrokes),
-            ("hover", hovers),
-            ("code actions", actions),
-        ]
-    }
-
     /// A letter is typed, and deleted in the next round.
     fn keystroke(&mut self, round: usize) -> Duration {
-        let at = self.middle;
-        match round % 2 {
-            0 => self.client.edit(self.name, at..at, "q"),
-            _ => self.client.edit(self.name, at..at + 1, ""),
-        }
+        self.press(round);
         let since = Instant::now();
         self.client.diagnostics(self.name);
         since.elapsed()
     }
 
+    fn press(&mut self, round: usize) {
+        let at = self.middle;
+        match round % 2 {
+            0 => self.client.edit(self.name, at..at, "q"),
+            _ => self.client.edit(self.name, at..at + 1, ""),
+        }
+    }
+
     /// So many edits, faster than the findings come.
     fn type_fast(&mut self, edits: usize) {
-        let at = self.middle;
         for round in 0..edits {
-            match round % 2 {
-                0 => self.client.edit(self.name, at..at, "q"),
-                _ => self.client.edit(self.name, at..at + 1, ""),
-            }
+            self.press(round);
             if round % BURST == BURST - 1 {
                 self.client.diagnostics(self.name);
             }
         }
     }
 
-    fn hover(&mut self, at: Position) -> Duration {
+    /// The place in the middle.
+    fn at(&self) -> Position {
+        position(self.client.text(self.name), self.middle)
+    }
+
+    fn hover(&mut self) -> Duration {
+        let at = self.at();
         let params = HoverParams {
             text_document_position_params: self.client.at(self.name, at),
             work_done_progress_params: Default::default(),
@@ -157,7 +182,9 @@ impl Session {
         since.elapsed()
     }
 
-    fn actions(&mut self, at: Position) -> Duration {
+    /// Offers what can be done, and the first action of that.
+    fn actions(&mut self) -> (Duration, Option<CodeAction>) {
+        let at = self.at();
         let params = CodeActionParams {
             text_document: TextDocumentIdentifier {
                 uri: self.client.uri(self.name),
@@ -168,8 +195,22 @@ impl Session {
             partial_result_params: Default::default(),
         };
         let since = Instant::now();
-        self.client.request::<CodeActionRequest>(params);
-        since.elapsed()
+        let offered = self.client.request::<CodeActionRequest>(params);
+        let took = since.elapsed();
+        let first = offered.into_iter().flatten().find_map(|it| match it {
+            CodeActionOrCommand::CodeAction(action) if action.data.is_some() => Some(action),
+            _ => None,
+        });
+        (took, first)
+    }
+
+    /// The first action is taken: what it changes is worked out.
+    fn take_action(&mut self) -> Option<Duration> {
+        let (_, action) = self.actions();
+        let action = action?;
+        let since = Instant::now();
+        self.client.request::<CodeActionResolveRequest>(action);
+        Some(since.elapsed())
     }
 }
 
@@ -205,6 +246,7 @@ fn percentiles(mut times: Vec<Duration>) -> String {
     };
     let said = |time: Duration| format!("{:.1} ms", time.as_secs_f64() * 1e3);
     match times.len() {
+        0 => "- | - | -".to_owned(),
         1 => format!("{} | - | -", said(at(50))),
         _ => format!("{} | {} | {}", said(at(50)), said(at(95)), said(at(99))),
     }
@@ -216,7 +258,7 @@ fn memory(executable: &str) -> Vec<(&'static str, String)> {
     let idle = Client::start(executable, Profile::Eglot);
     let resting = resident(idle.wire.id());
     drop(idle);
-    let mut session = Session::open(executable, "plant.ladder", &plant(500));
+    let mut session = Session::open(executable, Profile::Eglot, "plant.ladder", &plant(500));
     // The first edits fill what later ones use again.
     session.type_fast(EDITS / 10);
     let before = resident(session.client.wire.id());
