@@ -11,6 +11,7 @@ use petgraph::Direction;
 use petgraph::algo::kosaraju_scc;
 use petgraph::graph::{DiGraph, NodeIndex};
 use petgraph::unionfind::UnionFind;
+use rustc_hash::FxHashMap;
 
 use crate::conditions::Conditions;
 use crate::registers::Register;
@@ -200,33 +201,34 @@ fn mode_sets(graph: &DiGraph<(), ()>) -> Vec<Vec<NodeIndex>> {
 }
 
 /// Classes of variables and registers that depend on each other.
-struct Classes<'c> {
+struct Classes {
     union: UnionFind<usize>,
-    conditions: &'c Conditions,
+    /// The places of the variables, which come before the registers.
+    places: FxHashMap<AtomId, usize>,
 }
 
-impl Classes<'_> {
+impl Classes {
     fn join(&mut self, a: AtomId, b: AtomId) {
-        if let (Some(a), Some(b)) = (self.conditions.place(a), self.conditions.place(b)) {
-            self.union.union(a, b);
+        if let (Some(a), Some(b)) = (self.places.get(&a), self.places.get(&b)) {
+            self.union.union(*a, *b);
         }
     }
 
     fn class(&mut self, atom: AtomId) -> Option<usize> {
-        let place = self.conditions.place(atom)?;
-        Some(self.union.find_mut(place))
+        Some(self.union.find_mut(*self.places.get(&atom)?))
     }
 
     fn register_class(&mut self, register: usize) -> usize {
-        self.union
-            .find_mut(self.conditions.variables.len() + register)
+        self.union.find_mut(self.places.len() + register)
     }
 }
 
 /// Joins what a coil writes with the written variables that it reads. Inputs
 /// join nothing: a stop button does not make two machines one.
-fn dependent<'c>(conditions: &'c Conditions, registers: &[Register]) -> Classes<'c> {
+fn dependent(conditions: &Conditions, registers: &[Register]) -> Classes {
     let variables = conditions.variables.len();
+    let places = conditions.variables.iter().enumerate();
+    let places: FxHashMap<AtomId, usize> = places.map(|(at, it)| (it.atom, at)).collect();
     let mut union = UnionFind::new(variables + registers.len());
     let place: HashMap<&Name, usize> = registers
         .iter()
@@ -234,18 +236,14 @@ fn dependent<'c>(conditions: &'c Conditions, registers: &[Register]) -> Classes<
         .map(|(at, register)| (&register.name, at))
         .collect();
     let mut join = |to: usize, atom: AtomId| {
-        if let Some(place) = conditions.place(atom) {
-            union.union(to, place);
+        if let Some(place) = places.get(&atom) {
+            union.union(to, *place);
         }
         if let Some(timer) = conditions.timers.get(&atom)
             && let Ok(input) = &timer.input
         {
-            for place in input
-                .support()
-                .iter()
-                .filter_map(|it| conditions.place(*it))
-            {
-                union.union(to, place);
+            for place in input.support().iter().filter_map(|it| places.get(it)) {
+                union.union(to, *place);
             }
         }
         if let Atom::Comparison(comparison) = conditions.atoms.atom(atom)
@@ -269,5 +267,5 @@ fn dependent<'c>(conditions: &'c Conditions, registers: &[Register]) -> Classes<
             join(variables + register, *atom);
         }
     }
-    Classes { union, conditions }
+    Classes { union, places }
 }

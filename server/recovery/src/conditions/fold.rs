@@ -6,7 +6,7 @@ use std::sync::Arc;
 use ladder::CoilKind;
 use logic::{Atom, AtomId, Budget, Function, Stop};
 
-use super::{Conditions, Variable, Walk, Write, WriteKind};
+use super::{Conditions, Variable, Variables, Walk, Write, WriteKind};
 
 /// One variable for every target of `writes`, which stand in the order of the
 /// scan, and how many of them were folded. Those whose writes are what they
@@ -15,7 +15,7 @@ pub(super) fn variables(
     writes: Vec<Write>,
     earlier: Option<&Conditions>,
     walk: &mut Walk<'_>,
-) -> (Vec<Arc<Variable>>, usize) {
+) -> (Variables, usize) {
     let mut by_target: BTreeMap<AtomId, Vec<Write>> = BTreeMap::new();
     for write in writes {
         by_target.entry(write.target).or_default().push(write);

@@ -25,13 +25,13 @@ mod rung;
 mod sequence;
 mod solving;
 mod timers;
+mod variables;
 mod visits;
 mod writes;
 
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
-use imbl::Vector;
 use ladder::{Program, flow};
 use logic::{AtomId, Atoms, Budget, Expr, Function, Name, Stop};
 
@@ -41,6 +41,7 @@ pub use power::{Powers, Walk, powers};
 use sequence::{Earlier, Rungs, Solution};
 use source::Diagnostic;
 pub use timers::TimerLaw;
+pub use variables::Variables;
 use visits::{Visited, Visits};
 pub use writes::{Place, RegisterWrite, Write, WriteKind};
 
@@ -50,7 +51,7 @@ pub struct Conditions {
     /// Every atom that occurs: coils first, then inputs, then the rest.
     pub atoms: Atoms,
     /// Variables that a coil writes, in the order of their atoms.
-    pub variables: Vector<Arc<Variable>>,
+    pub variables: Variables,
     /// Atoms that stand for what an unknown box does.
     pub opaque: HashSet<AtomId>,
     /// Laws of timers, by the atom of their output.
@@ -139,15 +140,9 @@ impl Conditions {
         self.kept(atom).map(Arc::as_ref)
     }
 
-    /// The place among the variables of the one that `atom` is.
-    pub fn place(&self, atom: AtomId) -> Option<usize> {
-        let place = self.variables.binary_search_by_key(&atom, |it| it.atom);
-        place.ok()
-    }
-
     /// The variable that `atom` is, to be kept.
     pub(crate) fn kept(&self, atom: AtomId) -> Option<&Arc<Variable>> {
-        self.variables.get(self.place(atom)?)
+        self.variables.get(atom)
     }
 
     /// The variable called `name`, if coils write it.
@@ -227,7 +222,7 @@ fn computed(program: &Program, earlier: Option<Earlier<'_>>, budget: &Budget) ->
     let was = earlier.map(|earlier| earlier.conditions);
     let (variables, folded) = fold::variables(writes, was, &mut walk);
     Conditions {
-        variables: variables.into(),
+        variables,
         timers: happening.timers,
         register_writes,
         opaque,

@@ -14,7 +14,6 @@
 use std::collections::HashSet;
 use std::sync::Arc;
 
-use imbl::Vector;
 use ladder::{ElementKind, Network, Program, Value, flow};
 use logic::{Atom, AtomId, Atoms, Budget, Function, Name};
 use rustc_hash::FxHashSet;
@@ -23,7 +22,7 @@ use super::naming::Names;
 use super::rung::{self, Effect, Solved};
 use super::sequence::{Earlier, Rungs};
 use super::visits::{Circumstances, Visits};
-use super::{Conditions, Variable, Walk, Work, Write, fold, whole, writes};
+use super::{Conditions, Walk, Work, Write, fold, whole, writes};
 
 /// More rungs than this are not patched one by one.
 const MOST: usize = 64;
@@ -361,26 +360,13 @@ impl Patch<'_> {
             let writes = ranked.into_iter().map(|(_, write)| write).collect();
             let found = fold::variable_after(target, writes, known, &mut walk);
             folded += usize::from(found.as_ref().is_some_and(|it| it.is_anew));
-            put(&mut after.variables, target, found.map(|it| it.variable));
+            let found = found.map(|it| it.variable);
+            after.variables.put(target, found);
         }
         after.work = Work {
             rungs: self.rungs.len(),
             variables: folded,
         };
         Some(targets)
-    }
-}
-
-fn put(variables: &mut Vector<Arc<Variable>>, atom: AtomId, variable: Option<Arc<Variable>>) {
-    let place = variables.binary_search_by_key(&atom, |it| it.atom);
-    match (place, variable) {
-        (Ok(at), Some(variable)) => {
-            variables.set(at, variable);
-        }
-        (Ok(at), None) => {
-            variables.remove(at);
-        }
-        (Err(at), Some(variable)) => variables.insert(at, variable),
-        (Err(_), None) => {}
     }
 }

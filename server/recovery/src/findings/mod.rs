@@ -79,7 +79,7 @@ impl Findings {
         let mut of_variables = earlier.map_or_else(OrdMap::new, |it| it.of_variables.clone());
         let gone = of_variables
             .keys()
-            .filter(|atom| conditions.place(**atom).is_none());
+            .filter(|atom| conditions.variable(**atom).is_none());
         for atom in gone.copied().collect::<Vec<_>>() {
             of_variables.remove(&atom);
         }
