@@ -94,7 +94,7 @@ fn of_many_hints_of_one_kind_the_first_are_told_and_the_others_counted() {
         told,
         [
             "`q0` is read here before rung 1 of main writes it, and again after: the two see different scans",
-            "`q1` is read here before rung 4 of main writes it, and again after: the two see different scans (and 7 more like it, which `gradus check` lists)",
+            "`q1` is read here before rung 4 of main writes it, and again after: the two see different scans (and 7 more like it, which `gradus check --hints` lists)",
         ]
     );
     assert_eq!(analysis.findings(usize::MAX).len(), 9);

@@ -158,7 +158,8 @@ impl Findings {
             told.extend(shown);
             if let (true, Some(last)) = (alike.len() > most, told.last_mut()) {
                 let more = alike.len() - most;
-                last.message += &format!(" (and {more} more like it, which `gradus check` lists)");
+                last.message +=
+                    &format!(" (and {more} more like it, which `gradus check --hints` lists)");
             }
         }
         told.sort_by_key(|diagnostic| (diagnostic.span, diagnostic.code));
