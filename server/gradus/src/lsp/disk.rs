@@ -25,7 +25,7 @@ const KEPT: usize = 64;
 
 impl Disk {
     /// The file of a key, if it is one, is text, and has no more than `limit`
-    /// MiB.
+    /// bytes.
     pub fn read(&self, key: &FileKey, limit: u64) -> Option<Arc<Document>> {
         let stamp = Stamp::of(key, limit)?;
         if let Some((known, document)) = self.lock().get(key)
@@ -77,10 +77,10 @@ impl Disk {
 
 impl Stamp {
     /// The size and time of a file now, if it is one and has no more than
-    /// `limit` MiB.
+    /// `limit` bytes.
     pub fn of(key: &FileKey, limit: u64) -> Option<Self> {
         let found = fs::metadata(key.path()?).ok()?;
-        (found.is_file() && found.len() <= limit << 20).then(|| Self {
+        (found.is_file() && found.len() <= limit).then(|| Self {
             modified: found.modified().ok(),
             length: found.len(),
         })

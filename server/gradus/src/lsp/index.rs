@@ -100,8 +100,8 @@ impl Index {
                 (seen, Arc::clone(document))
             }
             None => {
-                let limit = world.config.max_file_size;
-                let stamp = Stamp::of(key, limit)?;
+                let limit = world.config(key).max_file_size;
+                let stamp = Stamp::of(key, limit.bytes())?;
                 let seen = Seen::Closed(stamp);
                 if let Some(known) = self.known(key, &seen) {
                     return Some(known);

@@ -1,6 +1,5 @@
 //! Findings, told without being asked.
 
-use std::collections::HashSet;
 use std::sync::Arc;
 
 use logic::Budget;
@@ -25,12 +24,11 @@ pub fn diagnostics(world: &World, document: &Arc<Document>, budget: &Budget) -> 
 
 /// The findings in a document that the user wants to see.
 pub fn shown(world: &World, document: &Document, budget: &Budget) -> Vec<source::Diagnostic> {
-    let wanted = &world.config.diagnostics;
+    let wanted = world.config(&document.key).diagnostics;
     if !wanted.enable {
         return Vec::new();
     }
-    let ignored = wanted.ignore.iter().filter_map(|code| Code::parse(code));
-    let ignored: HashSet<Code> = ignored.collect();
+    let ignored = wanted.ignored();
     let mut found = document.findings(world, budget);
     found.retain(|it| !ignored.contains(&it.code));
     found

@@ -11,13 +11,14 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use tower_lsp::ls_types::Uri;
 
 use super::abilities::Abilities;
-use super::config::Config;
 use super::disk::Disk;
 use super::document::{Contents, Document};
 use super::index::Index;
 use super::key::{FileKey, beside};
 use super::position::Encoding;
+use super::settings::Settings;
 use crate::input::LADDER_ENDINGS;
+use crate::settings::Config;
 
 /// What the server knows at one moment.
 #[derive(Clone, Debug, Default)]
@@ -25,7 +26,7 @@ pub struct World {
     /// Open documents.
     pub open: BTreeMap<FileKey, Arc<Document>>,
     /// What the user set.
-    pub config: Arc<Config>,
+    pub settings: Settings,
     /// What the client can do.
     pub abilities: Arc<Abilities>,
     /// Folders that the client works on.
@@ -46,7 +47,17 @@ impl World {
     pub fn document(&self, uri: &Uri) -> Option<Arc<Document>> {
         let key = FileKey::of(uri);
         let open = self.open.get(&key).cloned();
-        open.or_else(|| self.disk.read(&key, self.config.max_file_size))
+        open.or_else(|| self.on_disk(&key))
+    }
+
+    /// What is set for a file.
+    pub fn config(&self, key: &FileKey) -> Config {
+        self.settings.config(key, &self.folders)
+    }
+
+    fn on_disk(&self, key: &FileKey) -> Option<Arc<Document>> {
+        let limit = self.config(key).max_file_size;
+        self.disk.read(key, limit.bytes())
     }
 
     /// Where the spec of the ladder at `uri` is or would be.
@@ -75,7 +86,7 @@ impl World {
             let closed = ladders
                 .into_iter()
                 .filter(|key| !self.open.contains_key(key));
-            closed.filter_map(|key| self.disk.read(&key, self.config.max_file_size))
+            closed.filter_map(|key| self.on_disk(&key))
         };
         let mut found: Vec<Arc<Document>> = open.cloned().chain(on_disk()).collect();
         found.sort_by_key(|it| rank(&it.key));
