@@ -27,6 +27,7 @@ mod settings;
 mod signature_help;
 mod symbols;
 mod tokens;
+mod workspace_diagnostic;
 
 use end_to_end::lsp::{Client, Profile};
 

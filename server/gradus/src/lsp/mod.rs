@@ -19,10 +19,12 @@
 
 mod abilities;
 mod capabilities;
+mod checked;
 mod disk;
 mod document;
 mod edit;
 mod fault;
+mod files;
 mod folders;
 mod guard;
 mod in_force;

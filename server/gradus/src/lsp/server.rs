@@ -14,6 +14,7 @@ use tower_lsp::{Client, ClientSocket, LanguageServer, LspService};
 
 use super::abilities::Abilities;
 use super::capabilities::capabilities;
+use super::checked::Checked;
 use super::document::Document;
 use super::in_force::{Cause, InForce};
 use super::key::FileKey;
@@ -63,6 +64,8 @@ pub struct Shared {
     pub progress: Shown,
     /// The settings files in force.
     pub in_force: InForce,
+    /// What was found in whole folders.
+    pub checked: Checked,
 }
 
 impl Server {
@@ -77,6 +80,7 @@ impl Server {
                 tellers: Tellers::default(),
                 progress: Shown::default(),
                 in_force: InForce::default(),
+                checked: Checked::default(),
             }),
             end,
         })
@@ -99,6 +103,10 @@ impl Server {
                 self.shared.tellers.stop(&key);
             }
             Some(Work::Search(stopped)) => stopped.cancel(),
+            Some(Work::Check(stopped)) => {
+                self.shared.checked.give_up();
+                stopped.cancel();
+            }
             None => {}
         }
     }
@@ -168,9 +176,10 @@ impl LanguageServer for Server {
 
     async fn shutdown(&self) -> Result<()> {
         self.end.0.store(true, Ordering::SeqCst);
-        self.shared
-            .state
-            .change(|world| world.open.values().for_each(|it| it.outdate()));
+        self.shared.state.change(|world| {
+            world.is_ending = true;
+            world.open.values().for_each(|it| it.outdate());
+        });
         Ok(())
     }
 
@@ -230,6 +239,7 @@ impl LanguageServer for Server {
     }
 
     async fn did_change_configuration(&self, params: DidChangeConfigurationParams) {
+        self.shared.checked.begin_anew();
         if self.shared.state.world().abilities.configuration {
             telling::ask_for_settings(&self.shared);
         } else {
@@ -239,6 +249,7 @@ impl LanguageServer for Server {
     }
 
     async fn did_change_workspace_folders(&self, params: DidChangeWorkspaceFoldersParams) {
+        self.shared.checked.begin_anew();
         self.shared
             .state
             .change(|world| folders::changed(&mut world.folders, &params.event));
@@ -246,6 +257,7 @@ impl LanguageServer for Server {
     }
 
     async fn did_change_watched_files(&self, params: DidChangeWatchedFilesParams) {
+        self.shared.checked.begin_anew();
         let (mut matters, mut is_set) = (false, false);
         for change in params.changes {
             let key = FileKey::of(&change.uri);
@@ -291,6 +303,14 @@ impl LanguageServer for Server {
             })
             .into(),
         )
+    }
+
+    async fn workspace_diagnostic(
+        &self,
+        params: WorkspaceDiagnosticParams,
+    ) -> Result<WorkspaceDiagnosticReportResult> {
+        let report = requests::workspace_diagnostic::answer(&self.shared, params);
+        Ok(report.await?.into())
     }
 
     async fn code_action(&self, params: CodeActionParams) -> Result<Option<CodeActionResponse>> {

@@ -8,6 +8,7 @@
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
+use tokio::sync::watch;
 use tower_lsp::ls_types::Uri;
 
 use super::abilities::Abilities;
@@ -35,6 +36,8 @@ pub struct World {
     pub disk: Arc<Disk>,
     /// The names in all folders.
     pub index: Arc<Index>,
+    /// The client has asked for the end.
+    pub is_ending: bool,
 }
 
 impl World {
@@ -46,8 +49,13 @@ impl World {
     /// The document at an address: as it is open, else as it lies on disk.
     pub fn document(&self, uri: &Uri) -> Option<Arc<Document>> {
         let key = FileKey::of(uri);
-        let open = self.open.get(&key).cloned();
-        open.or_else(|| self.on_disk(&key))
+        self.file(&key)
+    }
+
+    /// The same of a file that is known already.
+    pub fn file(&self, key: &FileKey) -> Option<Arc<Document>> {
+        let open = self.open.get(key).cloned();
+        open.or_else(|| self.on_disk(key))
     }
 
     /// What is set for a file.
@@ -106,11 +114,7 @@ impl World {
 
 /// Whether two files differ by their ending only.
 fn is_beside(a: &FileKey, b: &FileKey) -> bool {
-    let stem = |key: &FileKey| match key {
-        FileKey::Path(path) => Some(path.with_extension("").to_string_lossy().into_owned()),
-        FileKey::Elsewhere(text) => Some(text.rsplit_once('.')?.0.to_owned()),
-    };
-    a != b && stem(a).is_some() && stem(a) == stem(b)
+    a != b && a.without_ending() == b.without_ending()
 }
 
 /// Where a file stands among those beside a spec: by its ending.
@@ -123,7 +127,10 @@ fn rank(key: &FileKey) -> (usize, FileKey) {
 
 /// The one changing state of the server.
 #[derive(Debug, Default)]
-pub struct State(Mutex<World>);
+pub struct State {
+    world: Mutex<World>,
+    changed: watch::Sender<()>,
+}
 
 impl State {
     /// What is known now.
@@ -133,11 +140,18 @@ impl State {
 
     /// Changes what is known.
     pub fn change<T>(&self, change: impl FnOnce(&mut World) -> T) -> T {
-        change(&mut self.lock())
+        let changed = change(&mut self.lock());
+        self.changed.send_replace(());
+        changed
+    }
+
+    /// Hears of changes.
+    pub fn changes(&self) -> watch::Receiver<()> {
+        self.changed.subscribe()
     }
 
     fn lock(&self) -> MutexGuard<'_, World> {
         // A change that panicked has left a document out, never half of one.
-        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+        self.world.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }

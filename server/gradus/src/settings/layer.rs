@@ -158,7 +158,7 @@ impl Reading {
         match usual {
             Value::Object(known) => {
                 let keys: Vec<_> = known.keys().map(|key| format!("`{key}`")).collect();
-                format!("a table with {}", keys.join(" and "))
+                format!("a table of {}", keys.join(", "))
             }
             Value::Bool(_) => "true or false".to_owned(),
             Value::Number(_) => "a whole number, 1 or more".to_owned(),

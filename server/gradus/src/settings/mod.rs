@@ -92,6 +92,8 @@ impl From<Weakest> for Evidence {
 pub struct Diagnostics {
     /// Report what is wrong or odd in ladders and specs.
     pub enable: bool,
+    /// Report findings in all files of the folder, open or not, where the editor asks for them.
+    pub workspace: bool,
     /// Codes of findings that are not reported, such as `G2004`. Conditions and hovers still tell about them.
     #[serde(deserialize_with = "codes")]
     #[cfg_attr(test, schemars(inner(regex(pattern = "^G[0-9]{4}$"))))]
@@ -142,6 +144,7 @@ impl Default for Diagnostics {
     fn default() -> Self {
         Self {
             enable: true,
+            workspace: true,
             ignore: Vec::new(),
         }
     }

@@ -89,7 +89,7 @@ diagnostics.ignore = [\"G2004\", \"G9999\", 2005]
 fn what_is_no_table_or_no_list_is_said_to_be_none() {
     assert_eq!(
         said("diagnostics = 3\n"),
-        ["G4103 at \"3\": `diagnostics` is 3; expected a table with `enable` and `ignore`"]
+        ["G4103 at \"3\": `diagnostics` is 3; expected a table of `enable`, `workspace`, `ignore`"]
     );
     assert_eq!(
         said("diagnostics.ignore = 'G2004'\n"),
@@ -106,7 +106,7 @@ fn what_is_no_table_or_no_list_is_said_to_be_none() {
     assert_eq!(
         said("[[codeLens]]\nenable = true\n"),
         [
-            "G4103 at \"[[codeLens]]\": `codeLens` is [{\"enable\":true}]; expected a table with `enable`"
+            "G4103 at \"[[codeLens]]\": `codeLens` is [{\"enable\":true}]; expected a table of `enable`"
         ]
     );
 }
