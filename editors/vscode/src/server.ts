@@ -31,7 +31,7 @@ import {
 import { findExecutable } from "./executable";
 import { ownLanguages, xmlLanguages } from "./ladder-file";
 import { furtherCapabilities } from "./protocol";
-import { pageOf } from "./virtual-documents";
+import { pageOf, withPages } from "./virtual-documents";
 
 /** How often a server that has died is started anew within so many milliseconds. */
 const restarts = 4;
@@ -148,6 +148,10 @@ export class Server {
           if (command === "gradus.explain" && typeof args[0] === "string") await showPage(pageOf(args[0]));
           return answer;
         },
+        provideHover: async (document, position, token, next) => {
+          const hover = await next(document, position, token);
+          return hover && withPages(hover);
+        },
         window: {
           // A spec opens beside its ladder, not in its place.
           showDocument: async (params, token, next) => {
@@ -244,7 +248,7 @@ async function showSetting(name: string): Promise<void> {
 }
 
 /** Shows a page of Markdown beside the active document, rendered where the editor can. */
-async function showPage(uri: Uri): Promise<void> {
+export async function showPage(uri: Uri): Promise<void> {
   try {
     await commands.executeCommand("markdown.showPreviewToSide", uri);
   } catch {

@@ -26,6 +26,8 @@ const userSettings = {
   "extensions.ignoreRecommendations": true,
   "files.autoSave": "off",
   "git.enabled": false,
+  // Cases count what is found in the files they open; one turns it on for a folder of its own.
+  "gradus.diagnostics.workspace": false,
   "security.workspace.trust.startupPrompt": "never",
   "telemetry.telemetryLevel": "off",
   "update.mode": "none",

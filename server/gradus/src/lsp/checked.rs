@@ -142,7 +142,8 @@ impl Checked {
         {
             return Some(reports);
         }
-        let only_open = !config.diagnostics.workspace || self.is_given_up();
+        let is_given_up = self.is_given_up();
+        let only_open = !config.diagnostics.workspace || is_given_up;
         #[cfg(test)]
         self.read.fetch_add(1, Ordering::Relaxed);
         let own = World {
@@ -150,22 +151,18 @@ impl Checked {
             ..world.clone()
         };
         let keys = seen.iter().map(|(key, _)| key);
-        let keys = keys.filter(|key| !only_open || world.open.contains_key(key));
-        let documents = keys.filter_map(|key| own.file(key));
+        let (looked_at, passed_over): (Vec<_>, Vec<_>) =
+            keys.partition(|key| !only_open || world.open.contains_key(key));
+        let documents = looked_at.into_iter().filter_map(|key| own.file(key));
         let documents: Vec<Arc<Document>> = documents.collect();
         let budget = Budget {
             cancel: stopped.clone(),
             ..Budget::default()
         };
         let (mut reports, mut known) = (Vec::new(), Vec::new());
-        for document in &documents {
-            if matches!(document.contents(), Contents::Foreign) {
-                continue;
-            }
-            let found = publish::diagnostics(&own, document, &budget);
+        let mut add = |key: &FileKey, uri: Uri, version: Option<i32>, found: Vec<Diagnostic>| {
             let id = number(&found);
-            let (uri, version) = (document.uri.clone(), document.version);
-            let has_it = told.get(&document.key).is_some_and(|(_, has)| *has == id);
+            let has_it = told.get(key).is_some_and(|(_, has)| *has == id);
             known.push(Known {
                 uri: uri.clone(),
                 version,
@@ -177,13 +174,30 @@ impl Checked {
                 id: Some(id),
                 found: (!has_it).then_some(found),
             });
+        };
+        for document in &documents {
+            if matches!(document.contents(), Contents::Foreign) {
+                continue;
+            }
+            let found = publish::diagnostics(&own, document, &budget);
+            let uri = document.uri.clone();
+            add(&document.key, uri, document.version, found);
+        }
+        if !is_given_up {
+            // VS Code keeps what it was told of a document that it has closed
+            // until it is told that there is nothing.
+            for key in passed_over {
+                if let Some(uri) = key.uri() {
+                    add(key, uri, None, Vec::new());
+                }
+            }
         }
         // Of a text that changes meanwhile only a part may have been read.
         let open = seen.iter().filter_map(|(key, _)| world.open.get(key));
         if stopped.is_cancelled() || open.into_iter().any(|it| it.is_outdated()) {
             return None;
         }
-        if !only_open {
+        if !is_given_up {
             let group = Group {
                 seen,
                 config,
@@ -360,8 +374,12 @@ mod tests {
         assert_eq!(said, ["a.ladder as before", "b.ladder 0"]);
         folder.write("two/gradus.toml", "diagnostics.workspace = false\n");
         let said = folder.check(&checked, &mut told);
-        assert_eq!(said, ["a.ladder as before", "b.ladder 0"]);
-        assert_eq!(told.len(), 1);
+        // No findings are no findings, whatever the reason.
+        assert_eq!(said, ["a.ladder as before", "b.ladder as before"]);
+        folder.write("two/gradus.toml", "");
+        assert_eq!(folder.check(&checked, &mut told)[1..], ["b.ladder 1"]);
+        folder.write("two/gradus.toml", "diagnostics.workspace = false\n");
+        assert_eq!(folder.check(&checked, &mut told)[1..], ["b.ladder 0"]);
     }
 
     #[test]

@@ -11,7 +11,7 @@ use tower_lsp::ls_types::{
 
 use super::document::Document;
 use super::fault;
-use super::virtual_document;
+use super::virtual_document::{self, Page};
 use super::world::World;
 
 /// Everything there is to say about a document, as the client shows it.
@@ -78,7 +78,7 @@ fn line(related: &DiagnosticRelatedInformation) -> String {
 /// documents which the server makes.
 fn page(world: &World, code: Code) -> Option<Uri> {
     let shown = world.abilities.code_pages && world.abilities.virtual_documents;
-    shown.then(|| virtual_document::page(code))?
+    shown.then(|| virtual_document::page(Page::Code(code)))?
 }
 
 fn severity(severity: Severity) -> DiagnosticSeverity {
