@@ -29,7 +29,7 @@ import {
   State,
 } from "vscode-languageclient/node";
 import { findExecutable } from "./executable";
-import { ownLanguages, xmlLanguages } from "./ladder-file";
+import { ownLanguages, schemes, xmlLanguages } from "./ladder-file";
 import { furtherCapabilities } from "./protocol";
 import { pageOf, withPages } from "./virtual-documents";
 
@@ -134,7 +134,7 @@ export class Server {
     const languages = [...ownLanguages, ...xmlLanguages];
     const initializationFailedHandler: InitializationFailedHandler = () => false;
     return {
-      documentSelector: ["file", "untitled"].flatMap((scheme) => languages.map((language) => ({ scheme, language }))),
+      documentSelector: schemes.flatMap((scheme) => languages.map((language) => ({ scheme, language }))),
       initializationOptions: settingsForServer(),
       synchronize: { configurationSection: "gradus" },
       outputChannel: this.log,

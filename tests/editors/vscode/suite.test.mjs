@@ -8,6 +8,7 @@ import { folders } from "./folders.mjs";
 import { hovers } from "./hovers.mjs";
 import { life } from "./life.mjs";
 import { start } from "./start.mjs";
+import { virtual } from "./virtual.mjs";
 import { startWorkbench } from "./workbench.mjs";
 
 const vsix = process.env.GRADUS_VSIX;
@@ -32,5 +33,6 @@ describe("VS Code", { timeout: 600_000 }, () => {
   describe("commands", () => commands(at));
   describe("folders", () => folders(at));
   describe("start of the server", () => start(at, vsix));
+  describe("virtual workspaces", () => virtual(vsix));
   describe("life of the server", () => life(at));
 });
