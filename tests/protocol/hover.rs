@@ -1,4 +1,5 @@
 use end_to_end::lsp::{Client, Marked, Profile};
+use serde_json::json;
 use tower_lsp::ls_types::request::HoverRequest;
 use tower_lsp::ls_types::{HoverContents, HoverParams, MarkupKind};
 
@@ -62,9 +63,65 @@ Driven by rung 0 of Tank (Fill the tank)";
 #[test]
 fn rungs_are_links_where_the_client_follows_them() {
     let (_, text) = shown(Profile::VsCode, "(s + v", "1) *").expect("a hover");
-    let last = text.lines().last().expect("a line");
-    let begins = last.starts_with("Driven by [rung 0 of Tank (Fill the tank)](file:///");
-    assert!(begins && last.ends_with("/tank.ladder#L8)"), "{last}");
+    let line = text.lines().find(|line| line.starts_with("Driven by"));
+    let line = line.expect("a line");
+    let begins = line.starts_with("Driven by [rung 0 of Tank (Fill the tank)](file:///");
+    assert!(begins && line.ends_with("/tank.ladder#L8)"), "{line}");
+}
+
+#[test]
+fn words_lead_to_their_pages_where_the_client_shows_them() {
+    let mut client = client();
+    let text = "\
+rung \"Up\": (go + $0up) * /down * /top -> up
+rung \"Down\": (back + down) * /up * /low -> down
+rung: $1lamp -> set horn
+rung: Seq = 0 * go -> Seq := 10
+rung: Seq = $210 * done -> Seq := 20
+rung: Seq = 20 * back -> Seq := 0
+rung: up$3 -> running
+";
+    let marked = client.open("hoist.ladder", text);
+    let mut pages = |cursor: usize| -> Vec<String> {
+        let params = HoverParams {
+            text_document_position_params: client
+                .at("hoist.ladder", marked.position(cursor, false)),
+            work_done_progress_params: Default::default(),
+        };
+        let hover = client.request::<HoverRequest>(params).expect("a hover");
+        let HoverContents::Markup(markup) = hover.contents else {
+            panic!("no markup");
+        };
+        let line = markup.value.lines().last().unwrap_or_default().to_owned();
+        let links = line.strip_prefix("More on ").unwrap_or_default();
+        links.split(", ").map(str::to_owned).collect()
+    };
+    let state = [
+        "[state](gradus-explain:/state.md)",
+        "[seal-in](gradus-explain:/seal-in.md)",
+        "[interlock](gradus-explain:/interlock.md)",
+        "[succession](gradus-explain:/succession.md)",
+    ];
+    assert_eq!(pages(0), state);
+    // What nothing is said of leads nowhere.
+    assert_eq!(pages(1), [""]);
+    assert_eq!(
+        pages(2),
+        [
+            "[step register](gradus-explain:/step-register.md)",
+            "[succession](gradus-explain:/succession.md)",
+        ]
+    );
+    assert_eq!(pages(3), state);
+    for (address, heading) in [
+        ("gradus-explain:/interlock.md", "# Interlock\n"),
+        ("gradus-explain:/step-register.md", "# Step register\n"),
+        ("gradus-explain:/G2010.md", "# G2010: "),
+    ] {
+        let answer = client.ask_raw("workspace/textDocumentContent", json!({ "uri": address }));
+        let text = answer["text"].as_str().expect("a text");
+        assert!(text.starts_with(heading), "{text}");
+    }
 }
 
 #[test]
@@ -115,7 +172,9 @@ follows      Seq=0 (written)
 followed by  Seq=20 (written)
 
 ──[ Seq = 10 ]────[ done ]────[ Seq := 20 ]
-```"
+```
+
+More on [step register](gradus-explain:/step-register.md), [succession](gradus-explain:/succession.md)"
     );
 }
 

@@ -23,9 +23,11 @@ mod progress;
 mod raw;
 mod rename;
 mod selection;
+mod settings;
 mod signature_help;
 mod symbols;
 mod tokens;
+mod workspace_diagnostic;
 
 use end_to_end::lsp::{Client, Profile};
 

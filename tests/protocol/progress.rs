@@ -4,7 +4,6 @@ use std::path::Path;
 
 use end_to_end::lsp::Profile;
 use serde_json::{Value, json};
-use tower_lsp::ls_types::Uri;
 
 use crate::raw::{Raw, large};
 
@@ -130,23 +129,10 @@ fn slow_search(raw: &mut Raw, folder: &Path, mut rungs: usize) -> (Value, Value,
     }
 }
 
-/// A client that works on that folder.
-fn in_folder(folder: &Path) -> Raw {
-    let mut raw = Raw::start();
-    let uri = Uri::from_file_path(folder).expect("an address");
-    let capabilities = Profile::VsCode.capabilities();
-    raw.ask(
-        "initialize",
-        json!({ "processId": null, "rootUri": uri, "capabilities": capabilities }),
-    );
-    raw.notify("initialized", json!({}));
-    raw
-}
-
 #[test]
 fn a_long_search_is_shown_from_its_begin_to_its_end() {
     let folder = tempfile::tempdir().expect("a folder");
-    let mut raw = in_folder(folder.path());
+    let mut raw = Raw::in_folders(Profile::VsCode, &[folder.path()]);
     let (search, token, id) = slow_search(&mut raw, folder.path(), LONG);
     agree(&mut raw, &id);
     // What ends at once, when the client has agreed late, is not shown.
@@ -169,7 +155,7 @@ fn a_long_search_is_shown_from_its_begin_to_its_end() {
 #[test]
 fn a_long_search_ends_when_the_user_cancels_it() {
     let folder = tempfile::tempdir().expect("a folder");
-    let mut raw = in_folder(folder.path());
+    let mut raw = Raw::in_folders(Profile::VsCode, &[folder.path()]);
     let (search, token, id) = slow_search(&mut raw, folder.path(), LONG);
     agree(&mut raw, &id);
     let next = raw.wait_for(|it| it["method"] == "$/progress" || it["id"] == search);

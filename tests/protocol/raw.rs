@@ -2,9 +2,11 @@
 //! answers nothing by itself.
 
 use std::collections::VecDeque;
+use std::path::Path;
 
 use end_to_end::lsp::{Profile, Wire};
 use serde_json::{Value, json};
+use tower_lsp::ls_types::Uri;
 
 /// A session, message by message.
 pub struct Raw {
@@ -44,6 +46,28 @@ impl Raw {
         );
         self.notify("initialized", json!({}));
         answer["result"].clone()
+    }
+
+    /// A session of a client of this kind that works on these folders.
+    pub fn in_folders(profile: Profile, folders: &[&Path]) -> Self {
+        Self::in_folders_with(profile, folders, Value::Null)
+    }
+
+    /// The same, with settings.
+    pub fn in_folders_with(profile: Profile, folders: &[&Path], settings: Value) -> Self {
+        let mut raw = Self::start();
+        let folders = folders
+            .iter()
+            .map(|it| json!({ "uri": uri(it), "name": "folder" }));
+        let hello = json!({
+            "processId": null,
+            "capabilities": profile.capabilities(),
+            "initializationOptions": settings,
+            "workspaceFolders": folders.collect::<Vec<_>>(),
+        });
+        raw.ask("initialize", hello);
+        raw.notify("initialized", json!({}));
+        raw
     }
 
     pub fn notify(&mut self, method: &str, params: Value) {
@@ -164,6 +188,12 @@ impl Raw {
         let status = self.wire.wait();
         assert!(status.success(), "the server ended with {status}");
     }
+}
+
+/// The address of a file.
+pub fn uri(path: &Path) -> String {
+    let uri = Uri::from_file_path(path).expect("an address");
+    uri.as_str().to_owned()
 }
 
 /// The params of a hover.

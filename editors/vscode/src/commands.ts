@@ -16,9 +16,9 @@ import {
 } from "vscode";
 import type { LanguageClient } from "vscode-languageclient/node";
 import { type Conversion, execute, type Spec, type Text } from "./protocol";
-import { type Server, showBeside } from "./server";
+import { type Server, showBeside, showPage } from "./server";
 import type { Verdicts } from "./verdicts";
-import { conditionsOf, rungsOf } from "./virtual-documents";
+import { conditionsOf, pageCommand, pageOf, rungsOf } from "./virtual-documents";
 
 type FileCommand = (client: LanguageClient, ladder: Uri) => Promise<void>;
 
@@ -47,6 +47,7 @@ export function registerCommands(
     "gradus.server.report": () => report(context, server),
     "gradus.server.log": showLog,
     "gradus.example": () => saveExample(context),
+    [pageCommand]: (name: string) => showPage(pageOf(name)),
   }).map(([name, run]) => commands.registerCommand(name, run));
 }
 

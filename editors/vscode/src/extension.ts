@@ -36,7 +36,7 @@ export function activate(context: ExtensionContext): void {
   server = running;
 
   const startFor = (documents: readonly Parameters<typeof concernsGradus>[0][]) => {
-    if (!running.wasWanted && documents.some((document) => onDisk(document.uri.scheme) && concernsGradus(document))) {
+    if (!running.wasWanted && documents.some(concernsGradus)) {
       void running.running();
     }
   };
@@ -65,9 +65,4 @@ export function activate(context: ExtensionContext): void {
 
 export async function deactivate(): Promise<void> {
   await server?.stop();
-}
-
-/** The server reads and writes what lies beside a file; texts that other extensions make up have nothing beside them. */
-function onDisk(scheme: string): boolean {
-  return scheme === "file" || scheme === "untitled";
 }

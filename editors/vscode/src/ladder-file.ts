@@ -7,16 +7,24 @@ import { Range, type TextDocument } from "vscode";
 
 export const specLanguage = "grafcet";
 export const ownLanguages = ["gradus-ladder", specLanguage, "gradus-scenario", "neutral-text"] as const;
+const ladderLanguages = ["gradus-ladder", "neutral-text"] as const;
 export const xmlLanguages = ["xml", "l5x"] as const;
+
+/** Where the server knows documents: it reads and writes what lies beside a file, and texts that other extensions make up have nothing beside them. */
+export const schemes = ["file", "untitled"] as const;
 
 /** Whether the language server has anything to say about the document. */
 export function concernsGradus(document: TextDocument): boolean {
-  return isAmong(ownLanguages, document.languageId) || isLadderXml(document);
+  return isServed(document) && (isAmong(ownLanguages, document.languageId) || isLadderXml(document));
 }
 
-/** Whether the document holds rungs. */
+/** Whether the document holds rungs, and the server knows it. */
 export function holdsLadder(document: TextDocument): boolean {
-  return document.languageId === "gradus-ladder" || document.languageId === "neutral-text" || isLadderXml(document);
+  return isServed(document) && (isAmong(ladderLanguages, document.languageId) || isLadderXml(document));
+}
+
+function isServed(document: TextDocument): boolean {
+  return isAmong(schemes, document.uri.scheme);
 }
 
 function isLadderXml(document: TextDocument): boolean {
@@ -29,6 +37,6 @@ export function beginsAsLadderXml(text: string): boolean {
   return /<RSLogix5000Content[\s>]/.test(text) || /www\.plcopen\.org\/xml\/tc6/i.test(text);
 }
 
-function isAmong(languages: readonly string[], languageId: string): boolean {
-  return languages.includes(languageId);
+function isAmong(all: readonly string[], one: string): boolean {
+  return all.includes(one);
 }

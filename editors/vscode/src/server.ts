@@ -29,9 +29,9 @@ import {
   State,
 } from "vscode-languageclient/node";
 import { findExecutable } from "./executable";
-import { ownLanguages, xmlLanguages } from "./ladder-file";
+import { ownLanguages, schemes, xmlLanguages } from "./ladder-file";
 import { furtherCapabilities } from "./protocol";
-import { pageOf } from "./virtual-documents";
+import { pageOf, withPages } from "./virtual-documents";
 
 /** How often a server that has died is started anew within so many milliseconds. */
 const restarts = 4;
@@ -134,7 +134,7 @@ export class Server {
     const languages = [...ownLanguages, ...xmlLanguages];
     const initializationFailedHandler: InitializationFailedHandler = () => false;
     return {
-      documentSelector: ["file", "untitled"].flatMap((scheme) => languages.map((language) => ({ scheme, language }))),
+      documentSelector: schemes.flatMap((scheme) => languages.map((language) => ({ scheme, language }))),
       initializationOptions: settingsForServer(),
       synchronize: { configurationSection: "gradus" },
       outputChannel: this.log,
@@ -147,6 +147,10 @@ export class Server {
           const answer: unknown = await next(command, args);
           if (command === "gradus.explain" && typeof args[0] === "string") await showPage(pageOf(args[0]));
           return answer;
+        },
+        provideHover: async (document, position, token, next) => {
+          const hover = await next(document, position, token);
+          return hover && withPages(hover);
         },
         window: {
           // A spec opens beside its ladder, not in its place.
@@ -244,7 +248,7 @@ async function showSetting(name: string): Promise<void> {
 }
 
 /** Shows a page of Markdown beside the active document, rendered where the editor can. */
-async function showPage(uri: Uri): Promise<void> {
+export async function showPage(uri: Uri): Promise<void> {
   try {
     await commands.executeCommand("markdown.showPreviewToSide", uri);
   } catch {

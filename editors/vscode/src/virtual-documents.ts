@@ -1,9 +1,17 @@
 /**
  * Documents that the server makes from a file: its rungs as text, the conditions of its
- * coils, the page of a finding's code. Their address names the file they are made from,
+ * coils, the page of a finding's code or of a word. Their address names the file they are made from,
  * so they can be asked for again at any time, and are, after each analysis of it.
  */
-import { type Event, EventEmitter, type TextDocumentContentProvider, Uri, workspace } from "vscode";
+import {
+  type Event,
+  EventEmitter,
+  type Hover,
+  MarkdownString,
+  type TextDocumentContentProvider,
+  Uri,
+  workspace,
+} from "vscode";
 import type { Server } from "./server";
 
 const schemes = ["gradus-ladder", "gradus-conditions", "gradus-explain"] as const;
@@ -18,9 +26,28 @@ export function conditionsOf(ladder: Uri): Uri {
   return Uri.from({ scheme: "gradus-conditions", path: `${ladder.path}.txt`, query: ladder.toString() });
 }
 
-/** The page of a finding's code. */
-export function pageOf(code: string): Uri {
-  return Uri.from({ scheme: "gradus-explain", path: `/${code}.md` });
+/** The page of a finding's code, or of a word that hovers use. */
+export function pageOf(name: string): Uri {
+  return Uri.from({ scheme: "gradus-explain", path: `/${name}.md` });
+}
+
+/** The command that shows a page. */
+export const pageCommand = "gradus.page";
+
+/**
+ * Makes the links to pages in a hover lead there. The editor follows no address of a scheme that it does not
+ * know, but it does run a command that is named to be trusted.
+ */
+export function withPages(hover: Hover): Hover {
+  for (const part of hover.contents) {
+    if (!(part instanceof MarkdownString)) continue;
+    part.value = part.value.replace(/\]\(gradus-explain:\/([\w-]+)\.md\)/g, (_, name: string) => {
+      const argument = encodeURIComponent(JSON.stringify([name]));
+      return `](command:${pageCommand}?${argument})`;
+    });
+    part.isTrusted = { enabledCommands: [pageCommand] };
+  }
+  return hover;
 }
 
 export class VirtualDocuments implements TextDocumentContentProvider {

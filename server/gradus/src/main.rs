@@ -19,6 +19,7 @@ mod lsp;
 mod program;
 mod progress;
 mod report;
+mod settings;
 mod status;
 mod subject;
 

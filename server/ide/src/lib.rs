@@ -16,6 +16,8 @@
 //! * [`folds_in_ladder`], [`selections_in_ladder`], [`link_in_ladder`] and the
 //!   same for specs: what folds, what a growing selection takes, and where a
 //!   text names the one beside it;
+//! * [`hover_in_ladder`], [`hover_in_spec`]: the thing under the pointer, and the
+//!   [`Term`]s it uses, each with its page;
 //! * [`hierarchy`]: which step follows which;
 //! * [`tokens`]: what each name is, for colouring;
 
@@ -49,6 +51,7 @@ mod signature;
 mod spec;
 mod statement;
 pub mod symbols;
+mod term;
 pub mod tokens;
 
 pub use actions::{Action, ActionKind, Asked, Effect, actions_in_ladder, actions_in_spec};
@@ -62,7 +65,7 @@ pub use condition::{broken, legible, said};
 pub use decided::{Decided, Standing};
 pub use folding::{Fold, folds_in_ladder, folds_in_spec};
 pub use hints::{Hint, hints_in_ladder, hints_in_spec};
-pub use hover::{Block, Hover, Rungs, hover_in_ladder, hover_in_spec, hover_of_variable};
+pub use hover::{Block, Hover, Rungs, Target, hover_in_ladder, hover_in_spec, hover_of_variable};
 pub use ladder::Ladder;
 pub use layout::{Extent, lay_out_ladder, lay_out_spec};
 pub use lenses::{Count, Lens, count, lenses_in_ladder, lenses_in_spec};
@@ -77,3 +80,4 @@ pub use rename::{
 pub use selection::{selections_in_ladder, selections_in_spec};
 pub use signature::{Signature, signature};
 pub use spec::Spec;
+pub use term::Term;

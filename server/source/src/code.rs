@@ -130,6 +130,9 @@ pub mod codes {
         DECISION_UNKNOWN = 3103, Warning, "decision about an unknown state";
         DECISION_SYNTAX = 3104, Warning, "decision not understood";
         FILE_UNREADABLE = 4001, Error, "file cannot be read";
+        SETTINGS_SYNTAX = 4101, Error, "settings file not understood";
+        SETTING_UNKNOWN = 4102, Warning, "setting not known";
+        SETTING_WRONG = 4103, Warning, "setting of a wrong kind";
         SCENARIO_SYNTAX = 5001, Error, "scenario not understood";
         SCENARIO_NAME_UNKNOWN = 5002, Error, "name that nothing in the run knows";
         EXPECTATION_FAILED = 5003, Error, "expectation not met";

@@ -165,7 +165,7 @@ export class Editor {
     return chosen;
   }
 
-  /** How many findings of that severity all open files have, as the status bar counts them. */
+  /** How many findings of that severity there are, as the status bar counts them. */
   async #count(severity) {
     const label = (await this.page.locator("#status\\.problems").getAttribute("aria-label")) ?? "";
     return Number(new RegExp(`${severity}s?: (\\d+)`, "i").exec(label)?.[1] ?? 0);

@@ -29,6 +29,15 @@ export function hovers(at) {
     await editor.isAt(line, 1);
   });
 
+  test("a word in a hover leads to the page that explains it", async () => {
+    const { editor, workbench } = at;
+    const tank = new Copy(workbench.folder, "words", fixture(neutralization.file));
+    await editor.open(tank.ladder);
+    await editor.goTo(...tank.place("-> v2", 3));
+    await editor.followFromHover(/^seal-in$/);
+    await editor.previews("seal-in.md", "A coil seals itself in");
+  });
+
   const export_ = realFile(real.file);
   test("a coil inside a real L5X export tells its conditions", { skip: export_ ? false : "no corpus" }, async () => {
     const { editor, workbench } = at;

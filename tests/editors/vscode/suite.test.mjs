@@ -4,9 +4,11 @@ import { after, afterEach, before, describe } from "node:test";
 import { commands } from "./commands.mjs";
 import { decisions } from "./decisions.mjs";
 import { Editor } from "./editor.mjs";
+import { folders } from "./folders.mjs";
 import { hovers } from "./hovers.mjs";
 import { life } from "./life.mjs";
 import { start } from "./start.mjs";
+import { virtual } from "./virtual.mjs";
 import { startWorkbench } from "./workbench.mjs";
 
 const vsix = process.env.GRADUS_VSIX;
@@ -29,6 +31,8 @@ describe("VS Code", { timeout: 600_000 }, () => {
   describe("hovers", () => hovers(at));
   describe("decisions", () => decisions(at));
   describe("commands", () => commands(at));
+  describe("folders", () => folders(at));
   describe("start of the server", () => start(at, vsix));
+  describe("virtual workspaces", () => virtual(vsix));
   describe("life of the server", () => life(at));
 });

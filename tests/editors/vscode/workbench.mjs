@@ -26,6 +26,8 @@ const userSettings = {
   "extensions.ignoreRecommendations": true,
   "files.autoSave": "off",
   "git.enabled": false,
+  // Cases count what is found in the files they open; one turns it on for a folder of its own.
+  "gradus.diagnostics.workspace": false,
   "security.workspace.trust.startupPrompt": "never",
   "telemetry.telemetryLevel": "off",
   "update.mode": "none",
@@ -37,11 +39,11 @@ const userSettings = {
 };
 
 /**
- * Starts a workbench on a new, empty folder with the extension of that .vsix. A folder
- * that is not `trusted` is one that nobody was asked about.
+ * Starts a workbench on a new, empty folder, or on the one with that address, with the extension
+ * of that .vsix and `further` ones. A folder that is not `trusted` is one that nobody was asked about.
  * `stop` ends everything that was started and removes what was written.
  */
-export async function startWorkbench(vsix, { trusted = true } = {}) {
+export async function startWorkbench(vsix, { trusted = true, further = [], folder: address } = {}) {
   const scratch = mkdtempSync(join(tmpdir(), "gradus-vscode-"));
   const folder = join(scratch, "workspace");
   const [data, user, extensions] = ["server", "user", "extensions"].map((name) => join(scratch, name));
@@ -60,7 +62,8 @@ export async function startWorkbench(vsix, { trusted = true } = {}) {
     LANG: "C.UTF-8",
     EXTENSIONS_GALLERY: "{}",
   };
-  const log = createWriteStream(join(artefacts, trusted ? "vscode.log" : "vscode-untrusted.log"));
+  const kind = [trusted ? "" : "-untrusted", address === undefined ? "" : "-virtual"].join("");
+  const log = createWriteStream(join(artefacts, `vscode${kind}.log`));
   const running = [];
   let browser;
   const stop = async () => {
@@ -69,7 +72,7 @@ export async function startWorkbench(vsix, { trusted = true } = {}) {
     rmSync(scratch, { recursive: true, force: true, maxRetries: 5, retryDelay: 200 });
   };
   try {
-    await install(vsix, places, env);
+    for (const package_ of [vsix, ...further]) await install(package_, places, env);
     const port = await freePort();
     const options = ["--without-connection-token", "--host", "127.0.0.1", "--port", String(port)];
     const quiet = ["--telemetry-level", "off", "--disable-telemetry", ...(trusted ? ["--disable-workspace-trust"] : [])];
@@ -97,7 +100,7 @@ export async function startWorkbench(vsix, { trusted = true } = {}) {
     const page = await context.newPage();
     page.setDefaultTimeout(30_000);
     page.on("console", (message) => log.write(`console ${message.type()} ${message.text()}\n`));
-    await page.goto(`http://127.0.0.1:${port}/?${new URLSearchParams({ folder })}`);
+    await page.goto(`http://127.0.0.1:${port}/?${new URLSearchParams({ folder: address ?? folder })}`);
     await page.locator(".monaco-workbench").waitFor({ timeout: 60_000 });
     await page.locator("#status\\.problems").waitFor({ timeout: 60_000 });
     return { page, folder, extensions, refused, stop };

@@ -133,3 +133,19 @@ async def test_files_are_watched_by_who_can(client: LanguageClient):
     watches = client.capabilities.workspace.did_change_watched_files
     can = watches is not None and watches.dynamic_registration
     assert client.watched == (["workspace/didChangeWatchedFiles"] if can else [])
+
+
+@pytest.mark.asyncio
+async def test_all_files_are_told_of_to_who_asks(client: LanguageClient):
+    provider = client.server.capabilities.diagnostic_provider
+    if provider is None:
+        return
+    assert provider.workspace_diagnostics
+    (client.folder / "twice.ladder").write_text("input a\nrung: a -> b\nrung: a -> b\n")
+    (client.folder / "quiet.ladder").write_text("input a\nrung: a -> b\n")
+    report = await client.workspace_diagnostic_async(types.WorkspaceDiagnosticParams([]))
+    assert all(isinstance(it, types.WorkspaceFullDocumentDiagnosticReport) for it in report.items)
+    assert [[found.code for found in it.items] for it in report.items] == [[], ["G2002"]]
+    known = [types.PreviousResultId(it.uri, it.result_id) for it in report.items]
+    again = await client.workspace_diagnostic_async(types.WorkspaceDiagnosticParams(known))
+    assert all(isinstance(it, types.WorkspaceUnchangedDocumentDiagnosticReport) for it in again.items)

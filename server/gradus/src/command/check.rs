@@ -22,8 +22,10 @@ use crate::subject;
 use ide::language;
 
 pub mod against;
+mod obeyed;
 
 use against::{about_spec, ladder_beside};
+use obeyed::Obeyed;
 
 const DETAILS: &str = "\
 A folder stands for the files below it that end in .ladder, .l5x, .l5k, .xml,
@@ -37,6 +39,10 @@ from what the ladder gives, states and decisions that it does not know.
 A scenario is run on the ladder and the spec that its `for` line names, or on
 those beside it; what it expects and does not get is an error. Where there is
 neither, only its text is checked.
+
+Codes that a gradus.toml beside a file, or in the nearest folder above it, lists in
+`diagnostics.ignore` are neither reported nor counted for that file. What is wrong
+in the gradus.toml is reported too.
 
 Exit status: 1 if there is a finding of severity error, 2 if a file cannot be read;
 the other files are checked all the same.
@@ -199,18 +205,20 @@ fn check(
         unreadable: inputs.unreadable,
         ..Checked::default()
     };
+    let mut obeyed = Obeyed::default();
     for (part, candidate) in inputs.candidates.into_iter().enumerate() {
         if let Some(progress) = &progress {
             progress.at(part, &report::printable(&input::name(&candidate.path)));
         }
         match io.read(&candidate.path) {
             Ok(text) => {
-                let diagnostics = examine(&candidate.path, &text, against, budget);
+                let mut diagnostics = examine(&candidate.path, &text, against, budget);
                 if is_of_no_interest(&candidate, &diagnostics) {
                     checked.passed_over += 1;
                 } else {
                     checked.files += 1;
-                    checked.keep(candidate, text, diagnostics, least);
+                    obeyed.sift(&candidate.path, &mut diagnostics);
+                    checked.keep(candidate.path, text, diagnostics, least);
                 }
             }
             Err(reason) => checked.unreadable.push((candidate.path, reason)),
@@ -219,24 +227,21 @@ fn check(
             return None;
         }
     }
+    for (path, file) in obeyed.faulty() {
+        checked.keep(path, file.text, file.findings, least);
+    }
     Some(checked)
 }
 
 impl Checked {
     /// Counts what was found about a file, and keeps what is listed.
-    fn keep(
-        &mut self,
-        file: Candidate,
-        text: Vec<u8>,
-        mut found: Vec<Diagnostic>,
-        least: Severity,
-    ) {
+    fn keep(&mut self, path: PathBuf, text: Vec<u8>, mut found: Vec<Diagnostic>, least: Severity) {
         for diagnostic in &found {
             *self.counts.entry(diagnostic.severity).or_default() += 1;
         }
         found.retain(|diagnostic| diagnostic.severity <= least);
         if !found.is_empty() {
-            self.findings.push(Findings::new(file.path, text, found));
+            self.findings.push(Findings::new(path, text, found));
         }
     }
 }

@@ -100,7 +100,7 @@ fn pulled_diagnostics() -> DiagnosticServerCapabilities {
         identifier: Some("gradus".to_owned()),
         // The findings in a spec depend on its ladder.
         inter_file_dependencies: true,
-        workspace_diagnostics: false,
+        workspace_diagnostics: true,
         work_done_progress_options: WorkDoneProgressOptions::default(),
     })
 }

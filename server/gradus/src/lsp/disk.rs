@@ -5,13 +5,19 @@ use std::fs;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::SystemTime;
 
+use logic::Cancel;
+
 use super::document::Document;
 use super::key::FileKey;
 
 /// Files as they were last read. Reading one again costs a look at its size and
 /// time only.
 #[derive(Debug, Default)]
-pub struct Disk(Mutex<HashMap<FileKey, (Stamp, Arc<Document>)>>);
+pub struct Disk {
+    files: Mutex<HashMap<FileKey, (Stamp, Arc<Document>)>>,
+    /// Ends all work on them.
+    until: Cancel,
+}
 
 /// What tells whether a file has changed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,8 +30,16 @@ pub struct Stamp {
 const KEPT: usize = 64;
 
 impl Disk {
+    /// Files that nobody wants to know of once `cancel` is raised.
+    pub fn until(cancel: Cancel) -> Self {
+        Self {
+            until: cancel,
+            ..Self::default()
+        }
+    }
+
     /// The file of a key, if it is one, is text, and has no more than `limit`
-    /// MiB.
+    /// bytes.
     pub fn read(&self, key: &FileKey, limit: u64) -> Option<Arc<Document>> {
         let stamp = Stamp::of(key, limit)?;
         if let Some((known, document)) = self.lock().get(key)
@@ -33,7 +47,7 @@ impl Disk {
         {
             return Some(Arc::clone(document));
         }
-        let document = Arc::new(Document::closed(key)?);
+        let document = Arc::new(Document::closed(key)?.until(self.until.clone()));
         let mut files = self.lock();
         if files.len() >= KEPT {
             files.clear();
@@ -71,16 +85,16 @@ impl Disk {
     }
 
     fn lock(&self) -> std::sync::MutexGuard<'_, HashMap<FileKey, (Stamp, Arc<Document>)>> {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+        self.files.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
 impl Stamp {
     /// The size and time of a file now, if it is one and has no more than
-    /// `limit` MiB.
+    /// `limit` bytes.
     pub fn of(key: &FileKey, limit: u64) -> Option<Self> {
         let found = fs::metadata(key.path()?).ok()?;
-        (found.is_file() && found.len() <= limit << 20).then(|| Self {
+        (found.is_file() && found.len() <= limit).then(|| Self {
             modified: found.modified().ok(),
             length: found.len(),
         })

@@ -73,6 +73,14 @@ impl Document {
         Some(Self::new(key.uri()?, "", None, &text))
     }
 
+    /// The same document, outdated when `cancel` is raised.
+    pub fn until(self, cancel: Cancel) -> Self {
+        Self {
+            outdated: cancel,
+            ..self
+        }
+    }
+
     /// The document after `changes`, made one after the other. This one is
     /// outdated from now on.
     pub fn edited(

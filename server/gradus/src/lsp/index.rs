@@ -7,18 +7,17 @@
 //! stops the search too; what was read until then stays known.
 
 use std::collections::{BTreeSet, HashMap};
-use std::path::PathBuf;
-use std::sync::{Arc, Mutex, PoisonError, Weak};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use ide::symbols::{Symbol, SymbolKind};
 use tower_lsp::ls_types::{Range, Uri};
 
-use super::disk::Stamp;
 use super::document::Document;
+use super::files::{self, Obeyed, Seen};
 use super::key::FileKey;
 use super::position::Encoding;
 use super::world::World;
-use crate::input::{ENDINGS, expand_while};
+use crate::settings::Config;
 
 /// A name in a file.
 #[derive(Clone, Debug)]
@@ -46,18 +45,6 @@ pub struct Listed {
 #[derive(Debug, Default)]
 pub struct Index(Mutex<HashMap<FileKey, (Seen, Listed)>>);
 
-/// What a file was when it was looked at.
-#[derive(Clone, Debug)]
-enum Seen {
-    /// On disk, with this size and time.
-    Closed(Stamp),
-    /// Open, as this document.
-    Open(Weak<Document>),
-}
-
-/// Files that are looked at, at most. A folder that holds more is no plant's.
-const MOST_FILES: usize = 20_000;
-
 /// Names that are kept, at most.
 const MOST_KEPT: usize = 2_000_000;
 
@@ -65,22 +52,14 @@ impl Index {
     /// The names of all open documents and of all files in the client's
     /// folders, by their keys; `None` once the answer is not `wanted` any more.
     pub fn all(&self, world: &World, wanted: &dyn Fn() -> bool) -> Option<Vec<Listed>> {
-        let open = world.open.values().filter(|it| is_of_its_own(&it.uri));
-        let mut keys: BTreeSet<FileKey> = open.map(|it| it.key.clone()).collect();
-        let folders: Vec<PathBuf> = world
-            .folders
-            .iter()
-            .filter_map(|it| it.path().map(PathBuf::from))
-            .collect();
-        let found = expand_while(&folders, ENDINGS, wanted);
-        let files = found.candidates.iter().take(MOST_FILES);
-        keys.extend(files.map(|it| FileKey::of_path(&it.path)));
+        let keys = files::all(world, wanted);
+        let mut obeyed = Obeyed::in_world(world);
         let mut all = Vec::new();
         for key in &keys {
             if !wanted() {
                 return None;
             }
-            all.extend(self.listed(world, key));
+            all.extend(self.listed(world, key, &obeyed.config(key)));
         }
         // What was found until somebody stopped it is not all that there is.
         wanted().then(|| {
@@ -90,25 +69,14 @@ impl Index {
     }
 
     /// The names of one file.
-    fn listed(&self, world: &World, key: &FileKey) -> Option<Listed> {
-        let (seen, document) = match world.open.get(key) {
-            Some(document) => {
-                let seen = Seen::Open(Arc::downgrade(document));
-                if let Some(known) = self.known(key, &seen) {
-                    return Some(known);
-                }
-                (seen, Arc::clone(document))
-            }
-            None => {
-                let limit = world.config.max_file_size;
-                let stamp = Stamp::of(key, limit)?;
-                let seen = Seen::Closed(stamp);
-                if let Some(known) = self.known(key, &seen) {
-                    return Some(known);
-                }
-                let document = Document::closed(key)?;
-                (seen, Arc::new(document))
-            }
+    fn listed(&self, world: &World, key: &FileKey, config: &Config) -> Option<Listed> {
+        let seen = Seen::of(world, key, config)?;
+        if let Some(known) = self.known(key, &seen) {
+            return Some(known);
+        }
+        let document = match world.open.get(key) {
+            Some(document) => Arc::clone(document),
+            None => Arc::new(Document::closed(key)?),
         };
         let listed = Listed {
             uri: document.uri.clone(),
@@ -121,12 +89,7 @@ impl Index {
     fn known(&self, key: &FileKey, seen: &Seen) -> Option<Listed> {
         let files = self.lock();
         let (before, listed) = files.get(key)?;
-        let same = match (before, seen) {
-            (Seen::Closed(before), Seen::Closed(now)) => before == now,
-            (Seen::Open(before), Seen::Open(now)) => before.ptr_eq(now),
-            _ => false,
-        };
-        same.then(|| listed.clone())
+        (before == seen).then(|| listed.clone())
     }
 
     fn keep(&self, key: &FileKey, seen: Seen, listed: &Listed) {
@@ -144,13 +107,6 @@ impl Index {
     fn lock(&self) -> std::sync::MutexGuard<'_, HashMap<FileKey, (Seen, Listed)>> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
-}
-
-/// Whether a document is no other one's view: not made by this server, and no
-/// older state of a file that a client compares with.
-fn is_of_its_own(uri: &Uri) -> bool {
-    let scheme = uri.scheme().as_str();
-    !scheme.starts_with("gradus-") && scheme != "git"
 }
 
 /// The names in a document that people look for.
@@ -223,17 +179,6 @@ mod tests {
         let second = all();
         assert!(Arc::ptr_eq(&first[0].entries, &second[0].entries));
         assert_eq!(names(&second[1..]), ["main", "rung 0", "longer"]);
-    }
-
-    #[test]
-    fn views_of_other_documents_are_passed_over() {
-        let of_its_own = |text: &str| {
-            let uri = std::str::FromStr::from_str(text).expect("an address");
-            is_of_its_own(&uri)
-        };
-        assert!(of_its_own("file:///p/tank.ladder") && of_its_own("untitled:Untitled-1"));
-        assert!(!of_its_own("gradus-ladder:/p/tank.L5X.ladder?file"));
-        assert!(!of_its_own("git:/p/tank.ladder?HEAD"));
     }
 
     #[test]

@@ -65,6 +65,20 @@ impl FileKey {
         name.to_owned()
     }
 
+    /// What it has in common with the files that differ from it by their ending
+    /// only; of an address without an ending, all of it.
+    pub fn without_ending(&self) -> Self {
+        match self {
+            Self::Path(path) => Self::Path(path.with_extension("")),
+            Self::Elsewhere(text) => {
+                let stem = text
+                    .rsplit_once('.')
+                    .map_or(text.as_str(), |(stem, _)| stem);
+                Self::Elsewhere(stem.to_owned())
+            }
+        }
+    }
+
     /// Its address in the usual spelling.
     pub fn uri(&self) -> Option<Uri> {
         match self {

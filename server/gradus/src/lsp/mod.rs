@@ -19,13 +19,15 @@
 
 mod abilities;
 mod capabilities;
-mod config;
+mod checked;
 mod disk;
 mod document;
 mod edit;
 mod fault;
+mod files;
 mod folders;
 mod guard;
+mod in_force;
 mod index;
 mod key;
 mod log;
@@ -36,6 +38,7 @@ mod publish;
 mod query;
 mod requests;
 mod server;
+mod settings;
 mod status;
 mod teller;
 mod telling;

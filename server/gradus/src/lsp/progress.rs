@@ -34,6 +34,9 @@ pub enum Work {
     /// Names are looked for in the client's folders. The flag is raised by who
     /// does not want to wait for them.
     Search(Cancel),
+    /// The files in the client's folders are checked. The flag is raised by who
+    /// does not want that.
+    Check(Cancel),
 }
 
 impl Work {
@@ -41,6 +44,7 @@ impl Work {
         match self {
             Self::Analysis(document) => format!("Analysing {}", document.name()),
             Self::Search(_) => "Reading the names in all files".to_owned(),
+            Self::Check(_) => "Checking all files".to_owned(),
         }
     }
 }

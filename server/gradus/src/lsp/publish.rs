@@ -1,6 +1,5 @@
 //! Findings, told without being asked.
 
-use std::collections::HashSet;
 use std::sync::Arc;
 
 use logic::Budget;
@@ -12,7 +11,7 @@ use tower_lsp::ls_types::{
 
 use super::document::Document;
 use super::fault;
-use super::virtual_document;
+use super::virtual_document::{self, Page};
 use super::world::World;
 
 /// Everything there is to say about a document, as the client shows it.
@@ -25,12 +24,11 @@ pub fn diagnostics(world: &World, document: &Arc<Document>, budget: &Budget) -> 
 
 /// The findings in a document that the user wants to see.
 pub fn shown(world: &World, document: &Document, budget: &Budget) -> Vec<source::Diagnostic> {
-    let wanted = &world.config.diagnostics;
+    let wanted = world.config(&document.key).diagnostics;
     if !wanted.enable {
         return Vec::new();
     }
-    let ignored = wanted.ignore.iter().filter_map(|code| Code::parse(code));
-    let ignored: HashSet<Code> = ignored.collect();
+    let ignored = wanted.ignored();
     let mut found = document.findings(world, budget);
     found.retain(|it| !ignored.contains(&it.code));
     found
@@ -80,7 +78,7 @@ fn line(related: &DiagnosticRelatedInformation) -> String {
 /// documents which the server makes.
 fn page(world: &World, code: Code) -> Option<Uri> {
     let shown = world.abilities.code_pages && world.abilities.virtual_documents;
-    shown.then(|| virtual_document::page(code))?
+    shown.then(|| virtual_document::page(Page::Code(code)))?
 }
 
 fn severity(severity: Severity) -> DiagnosticSeverity {

@@ -12,8 +12,10 @@ use super::fault;
 use super::guard::{internal, reason};
 use super::position::Encoding;
 use super::world::World;
+use crate::settings::Config;
 use ide::navigate::{self, Side};
 use ide::{Ladder, Spec};
+use recovery::successions::Evidence;
 use source::Span;
 
 /// A request about one document, with all that was known when it came.
@@ -31,6 +33,16 @@ impl Query {
     /// What columns count.
     pub fn encoding(&self) -> Encoding {
         self.world.encoding()
+    }
+
+    /// What is set for the document.
+    pub fn config(&self) -> Config {
+        self.world.config(&self.document.key)
+    }
+
+    /// The weakest evidence that the user wants to see.
+    pub fn weakest(&self) -> Evidence {
+        self.config().suggestions.evidence.into()
     }
 
     /// The byte at a position of the document.

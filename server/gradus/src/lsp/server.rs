@@ -14,8 +14,9 @@ use tower_lsp::{Client, ClientSocket, LanguageServer, LspService};
 
 use super::abilities::Abilities;
 use super::capabilities::capabilities;
-use super::config::Config;
+use super::checked::Checked;
 use super::document::Document;
+use super::in_force::{Cause, InForce};
 use super::key::FileKey;
 use super::log::Log;
 use super::progress::{self, Shown, Work};
@@ -24,7 +25,8 @@ use super::requests::command::Command;
 use super::teller::Tellers;
 use super::transport::Output;
 use super::world::State;
-use super::{folders, parent, publish, requests, telling};
+use super::{folders, in_force, parent, publish, requests, telling};
+use crate::settings::file;
 
 /// How the server ended.
 #[derive(Clone, Debug, Default)]
@@ -60,6 +62,10 @@ pub struct Shared {
     pub tellers: Tellers,
     /// What the client shows of work that takes long.
     pub progress: Shown,
+    /// The settings files in force.
+    pub in_force: InForce,
+    /// What was found in whole folders.
+    pub checked: Checked,
 }
 
 impl Server {
@@ -73,6 +79,8 @@ impl Server {
                 output,
                 tellers: Tellers::default(),
                 progress: Shown::default(),
+                in_force: InForce::default(),
+                checked: Checked::default(),
             }),
             end,
         })
@@ -95,6 +103,10 @@ impl Server {
                 self.shared.tellers.stop(&key);
             }
             Some(Work::Search(stopped)) => stopped.cancel(),
+            Some(Work::Check(stopped)) => {
+                self.shared.checked.give_up();
+                stopped.cancel();
+            }
             None => {}
         }
     }
@@ -105,17 +117,6 @@ impl Server {
     ) -> Result<requests::content::Content> {
         let world = self.shared.state.world();
         query::elsewhere(move |cancel| requests::content::answer(&world, &params, cancel)).await?
-    }
-
-    /// Takes over what the user set, and tells all findings anew.
-    fn configure(&self, settings: &LSPAny) {
-        let (config, complaints) = Config::read(settings);
-        for complaint in complaints {
-            self.shared.log.line(complaint);
-        }
-        self.shared
-            .state
-            .change(|world| world.config = Arc::new(config));
     }
 
     /// Answers a request about a position.
@@ -156,7 +157,7 @@ impl LanguageServer for Server {
             world.folders = folders;
         });
         if let Some(settings) = params.initialization_options {
-            self.configure(&settings);
+            telling::configure(&self.shared, &settings);
         }
         Ok(InitializeResult {
             capabilities,
@@ -175,9 +176,10 @@ impl LanguageServer for Server {
 
     async fn shutdown(&self) -> Result<()> {
         self.end.0.store(true, Ordering::SeqCst);
-        self.shared
-            .state
-            .change(|world| world.open.values().for_each(|it| it.outdate()));
+        self.shared.state.change(|world| {
+            world.is_ending = true;
+            world.open.values().for_each(|it| it.outdate());
+        });
         Ok(())
     }
 
@@ -191,6 +193,7 @@ impl LanguageServer for Server {
             }
         });
         telling::changed(&self.shared, &key);
+        in_force::look(&self.shared, Cause::Perhaps);
     }
 
     async fn did_change(&self, params: DidChangeTextDocumentParams) {
@@ -215,7 +218,11 @@ impl LanguageServer for Server {
 
     async fn did_save(&self, params: DidSaveTextDocumentParams) {
         let key = FileKey::of(&params.text_document.uri);
-        self.shared.state.change(|world| world.disk.forget(&key));
+        self.shared.state.change(|world| {
+            world.disk.forget(&key);
+            world.settings.forget(&key);
+        });
+        in_force::look(&self.shared, Cause::Perhaps);
     }
 
     async fn did_close(&self, params: DidCloseTextDocumentParams) {
@@ -227,32 +234,39 @@ impl LanguageServer for Server {
         if let Some(document) = closed {
             document.outdate();
             telling::closed(&self.shared, &document);
+            in_force::look(&self.shared, Cause::Perhaps);
         }
     }
 
     async fn did_change_configuration(&self, params: DidChangeConfigurationParams) {
+        self.shared.checked.begin_anew();
         if self.shared.state.world().abilities.configuration {
             telling::ask_for_settings(&self.shared);
         } else {
-            self.configure(&params.settings);
+            telling::configure(&self.shared, &params.settings);
             telling::everything(&self.shared);
         }
     }
 
     async fn did_change_workspace_folders(&self, params: DidChangeWorkspaceFoldersParams) {
+        self.shared.checked.begin_anew();
         self.shared
             .state
             .change(|world| folders::changed(&mut world.folders, &params.event));
+        in_force::look(&self.shared, Cause::Perhaps);
     }
 
     async fn did_change_watched_files(&self, params: DidChangeWatchedFilesParams) {
-        let mut matters = false;
+        self.shared.checked.begin_anew();
+        let (mut matters, mut is_set) = (false, false);
         for change in params.changes {
             let key = FileKey::of(&change.uri);
             let partners = self.shared.state.change(|world| {
                 world.disk.forget(&key);
+                world.settings.forget(&key);
                 world.open_partners(&key)
             });
+            is_set |= key.name() == file::NAME;
             matters |= !partners.is_empty();
             for partner in partners {
                 telling::changed(&self.shared, &partner.key);
@@ -260,6 +274,9 @@ impl LanguageServer for Server {
         }
         if matters {
             telling::refresh(&self.shared);
+        }
+        if is_set {
+            in_force::look(&self.shared, Cause::Said);
         }
     }
 
@@ -286,6 +303,14 @@ impl LanguageServer for Server {
             })
             .into(),
         )
+    }
+
+    async fn workspace_diagnostic(
+        &self,
+        params: WorkspaceDiagnosticParams,
+    ) -> Result<WorkspaceDiagnosticReportResult> {
+        let report = requests::workspace_diagnostic::answer(&self.shared, params);
+        Ok(report.await?.into())
     }
 
     async fn code_action(&self, params: CodeActionParams) -> Result<Option<CodeActionResponse>> {

@@ -59,7 +59,7 @@ enum Verdict {
 pub fn of(world: World, document: Arc<Document>) -> Option<Status> {
     let pair = Pair::of(&world, &document);
     let ladder = pair.ladder()?;
-    let weakest = world.config.suggestions.evidence.into();
+    let weakest = world.config(&document.key).suggestions.evidence.into();
     let count = ide::count(ladder, pair.spec().map(|it| &**it), weakest);
     let states = ladder
         .analysis

@@ -14,7 +14,6 @@ use tower_lsp::ls_types::{
     LSPAny, Registration, ShowDocumentParams,
 };
 
-use super::config::Config;
 use super::document::Document;
 use super::key::FileKey;
 use super::progress::{self, Work};
@@ -22,8 +21,10 @@ use super::publish;
 use super::query::elsewhere;
 use super::requests::command::Done;
 use super::server::Shared;
+use super::settings;
 use super::status::{self, StatusNotification};
 use crate::input::ENDINGS;
+use crate::settings::file;
 
 /// How long the client may take for an answer.
 const PATIENCE: Duration = Duration::from_secs(10);
@@ -65,8 +66,11 @@ pub fn register(shared: &Arc<Shared>) {
     }
     let shared = Arc::clone(shared);
     tokio::spawn(async move {
-        let watchers = ENDINGS.iter().map(|ending| FileSystemWatcher {
-            glob_pattern: GlobPattern::String(format!("**/*.{}", in_any_case(ending))),
+        let programs = ENDINGS.iter();
+        let programs = programs.map(|ending| format!("**/*.{}", in_any_case(ending)));
+        let all = programs.chain([format!("**/{}", file::NAME)]);
+        let watchers = all.map(|pattern| FileSystemWatcher {
+            glob_pattern: GlobPattern::String(pattern),
             kind: None,
         });
         let options = DidChangeWatchedFilesRegistrationOptions {
@@ -105,19 +109,23 @@ pub fn ask_for_settings(shared: &Arc<Shared>) {
         let Some(settings) = found.and_then(|found| found.into_iter().next()) else {
             return;
         };
-        let (config, complaints) = Config::read(&json!({ "gradus": settings }));
-        for complaint in complaints {
-            shared.log.line(complaint);
-        }
-        let changed = shared.state.change(|world| {
-            let changed = *world.config != config;
-            world.config = Arc::new(config);
-            changed
-        });
-        if changed {
+        if configure(&shared, &json!({ "gradus": settings })) {
             everything(&shared);
         }
     });
+}
+
+/// Takes over what the client sets. Whether it is anything new.
+pub fn configure(shared: &Shared, settings: &LSPAny) -> bool {
+    let (layer, complaints) = settings::of_client(settings);
+    for complaint in complaints {
+        shared.log.line(format!("settings: {complaint}"));
+    }
+    shared.state.change(|world| {
+        let changed = *world.settings.client != layer;
+        world.settings.client = Arc::new(layer);
+        changed
+    })
 }
 
 /// Tells everything about every open document anew.

@@ -8,6 +8,7 @@
 //! | `gradus-ladder:/p/tank.L5X.ladder?URI` | the ladder of the document URI in rung notation |
 //! | `gradus-conditions:/p/tank.L5X.txt?URI` | the conditions of all its coils |
 //! | `gradus-explain:/G2002.md` | the page of a code |
+//! | `gradus-explain:/latch.md` | the page of a word |
 
 use std::str::FromStr;
 use std::sync::Arc;
@@ -20,7 +21,7 @@ use tower_lsp::ls_types::Uri;
 use super::document::Document;
 use super::world::World;
 use crate::command::conditions;
-use ide::Ladder;
+use ide::{Ladder, Term};
 
 /// What a virtual document shows of a ladder.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -85,17 +86,47 @@ fn ladder_text(ladder: &Ladder) -> String {
 
 const PAGE: &str = "gradus-explain";
 
-/// The address of the page of a code.
-pub fn page(code: Code) -> Option<Uri> {
-    Uri::from_str(&format!("{PAGE}:/{code}.md")).ok()
+/// What a page explains.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Page {
+    /// A finding.
+    Code(Code),
+    /// A word that hovers use.
+    Term(Term),
+}
+
+impl Page {
+    /// The page that is called `name`.
+    fn called(name: &str) -> Option<Self> {
+        let term = || Term::called(name).map(Self::Term);
+        Code::parse(name).map(Self::Code).or_else(term)
+    }
+
+    fn text(self) -> &'static str {
+        match self {
+            Self::Code(code) => code.page(),
+            Self::Term(term) => term.page(),
+        }
+    }
+}
+
+/// The address of a page.
+pub fn page(page: Page) -> Option<Uri> {
+    let name = match page {
+        Page::Code(code) => code.to_string(),
+        Page::Term(term) => term.name().to_owned(),
+    };
+    Uri::from_str(&format!("{PAGE}:/{name}.md")).ok()
 }
 
 /// The text of the virtual document at `uri`, if there is one.
 pub fn text(world: &World, uri: &Uri, budget: &Budget) -> Option<String> {
     let scheme = uri.scheme().as_str();
     if scheme == PAGE {
-        let name = uri.path().as_str().trim_start_matches('/');
-        return Some(Code::parse(name.strip_suffix(".md")?)?.page().to_owned());
+        // Pages lead to each other as files do, from folder to folder.
+        let name = uri.path().as_str().rsplit('/').next()?;
+        let page = Page::called(name.strip_suffix(".md")?)?;
+        return Some(page.text().to_owned());
     }
     let mut views = [View::Ladder, View::Conditions].into_iter();
     let view = views.find(|view| view.scheme() == scheme)?;
@@ -128,8 +159,22 @@ mod tests {
     #[test]
     fn the_page_of_a_code_is_the_one_that_explain_prints() {
         let code = source::codes::DOUBLE_COIL;
-        let address = page(code).expect("an address");
-        let text = text(&World::default(), &address, &Budget::default());
-        assert_eq!(text.as_deref(), Some(code.page()));
+        let address = page(Page::Code(code)).expect("an address");
+        assert_eq!(text_at(address.as_str()).as_deref(), Some(code.page()));
+    }
+
+    #[test]
+    fn pages_lead_from_one_to_the_other_as_their_files_do() {
+        let latch = Some(Term::Latch.page().to_owned());
+        assert_eq!(text_at("gradus-explain:/latch.md"), latch);
+        let code = source::codes::DOUBLE_COIL.page().to_owned();
+        assert_eq!(text_at("gradus-explain:/diagnostics/G2002.md"), Some(code));
+        assert_eq!(text_at("gradus-explain:/nothing.md"), None);
+        assert_eq!(text_at("gradus-explain:/latch"), None);
+    }
+
+    fn text_at(address: &str) -> Option<String> {
+        let uri = Uri::from_str(address).expect("an address");
+        text(&World::default(), &uri, &Budget::default())
     }
 }

@@ -8,16 +8,18 @@
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
+use tokio::sync::watch;
 use tower_lsp::ls_types::Uri;
 
 use super::abilities::Abilities;
-use super::config::Config;
 use super::disk::Disk;
 use super::document::{Contents, Document};
 use super::index::Index;
 use super::key::{FileKey, beside};
 use super::position::Encoding;
+use super::settings::Settings;
 use crate::input::LADDER_ENDINGS;
+use crate::settings::Config;
 
 /// What the server knows at one moment.
 #[derive(Clone, Debug, Default)]
@@ -25,7 +27,7 @@ pub struct World {
     /// Open documents.
     pub open: BTreeMap<FileKey, Arc<Document>>,
     /// What the user set.
-    pub config: Arc<Config>,
+    pub settings: Settings,
     /// What the client can do.
     pub abilities: Arc<Abilities>,
     /// Folders that the client works on.
@@ -34,6 +36,8 @@ pub struct World {
     pub disk: Arc<Disk>,
     /// The names in all folders.
     pub index: Arc<Index>,
+    /// The client has asked for the end.
+    pub is_ending: bool,
 }
 
 impl World {
@@ -45,8 +49,23 @@ impl World {
     /// The document at an address: as it is open, else as it lies on disk.
     pub fn document(&self, uri: &Uri) -> Option<Arc<Document>> {
         let key = FileKey::of(uri);
-        let open = self.open.get(&key).cloned();
-        open.or_else(|| self.disk.read(&key, self.config.max_file_size))
+        self.file(&key)
+    }
+
+    /// The same of a file that is known already.
+    pub fn file(&self, key: &FileKey) -> Option<Arc<Document>> {
+        let open = self.open.get(key).cloned();
+        open.or_else(|| self.on_disk(key))
+    }
+
+    /// What is set for a file.
+    pub fn config(&self, key: &FileKey) -> Config {
+        self.settings.config(key, &self.folders)
+    }
+
+    fn on_disk(&self, key: &FileKey) -> Option<Arc<Document>> {
+        let limit = self.config(key).max_file_size;
+        self.disk.read(key, limit.bytes())
     }
 
     /// Where the spec of the ladder at `uri` is or would be.
@@ -75,7 +94,7 @@ impl World {
             let closed = ladders
                 .into_iter()
                 .filter(|key| !self.open.contains_key(key));
-            closed.filter_map(|key| self.disk.read(&key, self.config.max_file_size))
+            closed.filter_map(|key| self.on_disk(&key))
         };
         let mut found: Vec<Arc<Document>> = open.cloned().chain(on_disk()).collect();
         found.sort_by_key(|it| rank(&it.key));
@@ -95,11 +114,7 @@ impl World {
 
 /// Whether two files differ by their ending only.
 fn is_beside(a: &FileKey, b: &FileKey) -> bool {
-    let stem = |key: &FileKey| match key {
-        FileKey::Path(path) => Some(path.with_extension("").to_string_lossy().into_owned()),
-        FileKey::Elsewhere(text) => Some(text.rsplit_once('.')?.0.to_owned()),
-    };
-    a != b && stem(a).is_some() && stem(a) == stem(b)
+    a != b && a.without_ending() == b.without_ending()
 }
 
 /// Where a file stands among those beside a spec: by its ending.
@@ -112,7 +127,10 @@ fn rank(key: &FileKey) -> (usize, FileKey) {
 
 /// The one changing state of the server.
 #[derive(Debug, Default)]
-pub struct State(Mutex<World>);
+pub struct State {
+    world: Mutex<World>,
+    changed: watch::Sender<()>,
+}
 
 impl State {
     /// What is known now.
@@ -122,11 +140,18 @@ impl State {
 
     /// Changes what is known.
     pub fn change<T>(&self, change: impl FnOnce(&mut World) -> T) -> T {
-        change(&mut self.lock())
+        let changed = change(&mut self.lock());
+        self.changed.send_replace(());
+        changed
+    }
+
+    /// Hears of changes.
+    pub fn changes(&self) -> watch::Receiver<()> {
+        self.changed.subscribe()
     }
 
     fn lock(&self) -> MutexGuard<'_, World> {
         // A change that panicked has left a document out, never half of one.
-        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+        self.world.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }

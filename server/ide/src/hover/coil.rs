@@ -2,11 +2,12 @@
 
 use logic::{Budget, Name};
 use recovery::Analysis;
+use recovery::states::Holding;
 use recovery::successions::{Evidence, Succession};
 
 use super::Block;
 use crate::decided::{Decided, Standing};
-use crate::{Coil, Ladder, Part, Spec};
+use crate::{Coil, Ladder, Part, Spec, Term};
 
 const TOO_LARGE: &str = "too large to be worked out";
 
@@ -14,7 +15,7 @@ const TOO_LARGE: &str = "too large to be worked out";
 pub(super) fn summary(coil: &Coil<'_>, analysis: &Analysis) -> String {
     let part = match coil.part {
         Part::State => match analysis.states().find(coil.name).map(|it| it.holding) {
-            Some(recovery::states::Holding::Latch) => "holds a state (latch)",
+            Some(Holding::Latch) => "holds a state (latch)",
             _ => "holds a state (seal-in)",
         },
         Part::Repeats => "stored output: states set and reset it",
@@ -29,6 +30,30 @@ pub(super) fn summary(coil: &Coil<'_>, analysis: &Analysis) -> String {
         Some(description) => format!("{description}: {part}"),
         None => part.to_owned(),
     }
+}
+
+/// The words that are said of it, and have a page.
+pub(super) fn terms(coil: &Coil<'_>, analysis: &Analysis) -> Vec<Term> {
+    let mut terms = match coil.part {
+        Part::State => match analysis.states().find(coil.name).map(|it| it.holding) {
+            Some(Holding::Latch) => vec![Term::State, Term::Latch],
+            _ => vec![Term::State, Term::SealIn],
+        },
+        Part::Repeats => vec![Term::StoredOutput],
+        Part::Keeps | Part::KeptWhenSkipped => vec![Term::Persistent],
+        Part::Oscillates => vec![Term::Oscillating],
+        Part::Auxiliary => vec![Term::Auxiliary],
+        Part::Follows => vec![Term::NonPersistent],
+        Part::TooLarge => Vec::new(),
+    };
+    let further = [
+        (!coil.interlocks.is_empty(), Term::Interlock),
+        (!coil.opaque.is_empty(), Term::Opaque),
+        (coil.resolved.is_some(), Term::Auxiliary),
+        (coil.part == Part::State, Term::Succession),
+    ];
+    terms.extend(further.iter().filter(|(is, _)| *is).map(|(_, term)| *term));
+    terms
 }
 
 /// Its conditions, interlocks and neighbours.

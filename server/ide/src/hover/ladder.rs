@@ -7,7 +7,7 @@ use source::Span;
 
 use super::{Block, Hover, Rungs, WIDTH, coil};
 use crate::navigate::state_of;
-use crate::{Ladder, Spec, Usage, describe, element, legible};
+use crate::{Ladder, Spec, Term, Usage, describe, element, legible};
 
 /// What is known of the thing at the byte `offset` of a ladder: a variable, a
 /// box or a rung.
@@ -108,6 +108,7 @@ pub(super) fn of_variable(
                 address: coil.address.map(str::to_owned),
                 summary: coil::summary(&coil, analysis),
                 blocks,
+                terms: coil::terms(&coil, analysis),
             }
         }
         None => of_input(ladder, name, span),
@@ -160,6 +161,7 @@ fn of_input(ladder: &Ladder, name: &Name, span: Span) -> Hover {
             .map(str::to_owned),
         summary,
         blocks,
+        terms: register.map(|_| Term::StepRegister).into_iter().collect(),
     }
 }
 
@@ -228,7 +230,9 @@ fn of_box(
     }
     let state = state_of(ladder, &element.kind);
     let mut summary = describe::summary(&element.kind);
+    let mut terms = Vec::new();
     if let Some(state) = &state {
+        terms.extend([Term::StepRegister, Term::Succession]);
         summary = coil::value_summary(state, ladder).unwrap_or(summary);
         blocks.push(Block::Fields(coil::neighbours(state, ladder, spec, budget)));
     }
@@ -242,6 +246,7 @@ fn of_box(
         address: None,
         summary,
         blocks,
+        terms,
     }
 }
 
@@ -250,6 +255,7 @@ fn of_rung(ladder: &Ladder, place: Place, budget: &Budget) -> Option<Hover> {
     let (_, rung) = ladder.rung(place)?;
     let analysis = &ladder.analysis;
     let mut blocks: Vec<Block> = drawing(ladder, place).into_iter().collect();
+    let mut terms = Vec::new();
     for (_, element) in rung.network.elements() {
         let ElementKind::Coil(coil) = &element.kind else {
             continue;
@@ -258,6 +264,12 @@ fn of_rung(ladder: &Ladder, place: Place, budget: &Budget) -> Option<Hover> {
             continue;
         };
         let coil = crate::coil(variable, analysis, budget);
+        for term in coil::terms(&coil, analysis) {
+            // Its neighbours are not told here.
+            if term != Term::Succession && !terms.contains(&term) {
+                terms.push(term);
+            }
+        }
         blocks.push(Block::Text(format!(
             "{}: {}",
             coil.name,
@@ -275,6 +287,7 @@ fn of_rung(ladder: &Ladder, place: Place, budget: &Budget) -> Option<Hover> {
         address: None,
         summary: String::new(),
         blocks,
+        terms,
     })
 }
 

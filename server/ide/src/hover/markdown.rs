@@ -65,7 +65,8 @@ mod tests {
     use pulldown_cmark::{Event, Options, Parser, Tag, TagEnd};
 
     use super::*;
-    use crate::Hover;
+    use crate::hover::Target;
+    use crate::{Hover, Term};
 
     #[test]
     fn names_and_conditions_of_programs_need_no_backslash() {
@@ -112,9 +113,12 @@ mod tests {
             address: None,
             summary: String::new(),
             blocks: vec![crate::Block::Rungs(rungs)],
+            terms: vec![Term::SealIn],
         };
-        let link =
-            |span: source::Span| (span.start < 10).then(|| "file:///tank.ladder#L1".to_owned());
+        let link = |target: Target| match target {
+            Target::Rung(span) => (span.start < 10).then(|| "file:///tank.ladder#L1".to_owned()),
+            Target::Page(_) => None,
+        };
         assert_eq!(
             hover.markdown(&link),
             "**v1**\n\nDriven by [rung 0 of Tank (Fill \\[1\\])](file:///tank.ladder#L1), \
@@ -124,6 +128,28 @@ mod tests {
             hover.plain(),
             "v1\n\nDriven by rung 0 of Tank (Fill [1]), rung 1 of Tank and 3 more"
         );
+    }
+
+    #[test]
+    fn words_lead_to_their_pages_where_there_are_addresses() {
+        let hover = Hover {
+            span: source::Span::at(0),
+            name: "v1".to_owned(),
+            address: None,
+            summary: String::new(),
+            blocks: Vec::new(),
+            terms: vec![Term::SealIn, Term::StepRegister],
+        };
+        let link = |target: Target| match target {
+            Target::Page(term) => Some(format!("page:/{}.md", term.name())),
+            Target::Rung(_) => None,
+        };
+        assert_eq!(
+            hover.markdown(&link),
+            "**v1**\n\nMore on [seal-in](page:/seal-in.md), [step register](page:/step-register.md)"
+        );
+        assert_eq!(hover.markdown(&|_| None), "**v1**");
+        assert_eq!(hover.plain(), "v1");
     }
 
     /// What is shown of `markdown`: paragraphs of plain words, the first of
@@ -158,6 +184,7 @@ mod tests {
                 address: None,
                 summary: summary.to_owned(),
                 blocks: Vec::new(),
+                terms: Vec::new(),
             };
             let wanted = match summary {
                 "" => name,

@@ -11,6 +11,7 @@ mod spec;
 
 use source::Span;
 
+use crate::Term;
 use crate::condition::broken;
 use markdown::{escaped, in_brackets};
 
@@ -30,6 +31,17 @@ pub struct Hover {
     pub summary: String,
     /// All else, from above downwards.
     pub blocks: Vec<Block>,
+    /// Words that it uses, and that have a page.
+    pub terms: Vec<Term>,
+}
+
+/// What a hover may lead to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Target {
+    /// The rung at this place in the ladder.
+    Rung(Span),
+    /// The page of a word.
+    Page(Term),
 }
 
 /// A part of a hover.
@@ -70,9 +82,8 @@ impl Rungs {
 }
 
 impl Hover {
-    /// The hover in Markdown. `link` gives the address of a place in the ladder,
-    /// where rungs shall have one.
-    pub fn markdown(&self, link: &dyn Fn(Span) -> Option<String>) -> String {
+    /// The hover in Markdown. `link` gives the address of what shall have one.
+    pub fn markdown(&self, link: &dyn Fn(Target) -> Option<String>) -> String {
         let mut out = format!("**{}**", escaped(&self.name));
         if let Some(address) = &self.address {
             out += &format!(" `{address}`");
@@ -84,7 +95,7 @@ impl Hover {
             out += &match part {
                 Part::Words(words) => format!("\n\n{}", escaped(words)),
                 Part::Rungs(rungs) => {
-                    let said = rungs.said(|title, span| match link(span) {
+                    let said = rungs.said(|title, span| match link(Target::Rung(span)) {
                         Some(address) => format!("[{}]({address})", in_brackets(title)),
                         None => escaped(title),
                     });
@@ -92,6 +103,14 @@ impl Hover {
                 }
                 Part::Lines(lines) => format!("\n\n```text\n{lines}\n```"),
             };
+        }
+        let pages = self.terms.iter().filter_map(|term| {
+            let address = link(Target::Page(*term))?;
+            Some(format!("[{}]({address})", term.words()))
+        });
+        let pages: Vec<String> = pages.collect();
+        if !pages.is_empty() {
+            out += &format!("\n\nMore on {}", pages.join(", "));
         }
         out
     }

@@ -6,7 +6,7 @@ use source::Span;
 
 use super::ladder::of_variable;
 use super::{Block, Hover, coil};
-use crate::{Ladder, Spec};
+use crate::{Ladder, Spec, Term};
 
 /// What is known of the thing at the byte `offset` of a spec: a step, a
 /// transition, a variable, a state of its ladder.
@@ -56,10 +56,12 @@ fn of_step(
         summary = format!("{comment}: {summary}");
     }
     let mut blocks = vec![Block::Fields(around(spec, &step.name))];
+    let mut terms = vec![Term::Step];
     if let (Some(ladder), Some(state)) = (ladder, &step.state)
         && let Some(state) = of_state(spec, ladder, state, mention.span, budget)
     {
         blocks.extend(state.blocks);
+        terms.extend(state.terms);
     }
     Some(Hover {
         span: mention.span,
@@ -67,6 +69,7 @@ fn of_step(
         address: None,
         summary,
         blocks,
+        terms,
     })
 }
 
@@ -129,6 +132,7 @@ fn of_transition(spec: &Spec, name: &Name, span: Span) -> Option<Hover> {
             None => "transition".to_owned(),
         },
         blocks: vec![Block::Fields(fields)],
+        terms: vec![Term::Transition],
     })
 }
 
@@ -155,6 +159,7 @@ fn of_state(
             Some(spec),
             budget,
         ))],
+        terms: vec![Term::StepRegister, Term::Succession],
     })
 }
 
@@ -186,5 +191,6 @@ fn of_value(
             None => "variable of the spec".to_owned(),
         },
         blocks: Vec::new(),
+        terms: Vec::new(),
     })
 }

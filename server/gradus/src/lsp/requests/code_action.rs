@@ -75,7 +75,7 @@ pub fn answer(
     let asked = Asked {
         span,
         findings: &here,
-        weakest: query.world.config.suggestions.evidence.into(),
+        weakest: query.weakest(),
         budget: &query.budget,
     };
     let actions = match query.spec() {

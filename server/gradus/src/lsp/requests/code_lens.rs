@@ -8,11 +8,11 @@ use crate::lsp::query::Query;
 
 /// The lenses of a document.
 pub fn answer(query: &Query) -> Option<Vec<CodeLens>> {
-    if !query.world.config.code_lens.enable {
+    if !query.config().code_lens.enable {
         return None;
     }
     let pair = query.pair();
-    let weakest = query.world.config.suggestions.evidence.into();
+    let weakest = query.weakest();
     let ladder = pair.ladder()?;
     let lenses = match query.spec() {
         Some(spec) => ide::lenses_in_spec(spec, ladder, weakest),

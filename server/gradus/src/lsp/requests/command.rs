@@ -178,7 +178,7 @@ pub fn answer(query: &Query, command: &LadderCommand) -> Option<Done> {
             let open = ide::count(
                 ladder,
                 Some(&ide::Spec::read(new.as_str().into())),
-                query.world.config.suggestions.evidence.into(),
+                query.weakest(),
             );
             Some(Done {
                 answer: json!({
@@ -219,12 +219,19 @@ pub fn report(world: &World, log: &Log) -> Value {
         format!("- a document `.{ending}` of {bytes} bytes")
     });
     let open: Vec<String> = open.collect();
+    let mut settings = vec![world.settings.client.config()];
+    for document in world.open.values() {
+        let obeyed = world.config(&document.key);
+        if !settings.contains(&obeyed) {
+            settings.push(obeyed);
+        }
+    }
     let text = format!(
         "# gradus {}\n\n## Client\n\n```text\n{:#?}\n```\n\n## Settings\n\n```text\n{:#?}\n```\n\n\
          ## Open documents\n\n{}\n\n## Log\n\n```text\n{}\n```\n",
         env!("CARGO_PKG_VERSION"),
         world.abilities,
-        world.config,
+        settings,
         open.join("\n"),
         log.lines().join("\n"),
     );

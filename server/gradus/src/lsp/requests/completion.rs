@@ -2,7 +2,6 @@
 
 use ide::CompletionKind;
 use logic::Name;
-use recovery::successions::Evidence;
 use serde::{Deserialize, Serialize};
 use tower_lsp::ls_types::{
     CompletionItem, CompletionItemKind, CompletionItemLabelDetails, CompletionList,
@@ -10,7 +9,6 @@ use tower_lsp::ls_types::{
     MarkupKind, Position, TextEdit, Uri,
 };
 
-use crate::lsp::config::Weakest;
 use crate::lsp::query::Query;
 
 /// What an item remembers, so that its documentation can be made later: most
@@ -36,7 +34,7 @@ pub fn answer(query: &Query, at: Position) -> Option<CompletionResponse> {
             spec,
             pair.ladder().map(|it| &**it),
             offset,
-            weakest(query),
+            query.weakest(),
             &query.budget,
         ),
         None => ide::complete_in_ladder(query.document.ladder()?, offset),
@@ -96,14 +94,6 @@ pub fn answer(query: &Query, at: Position) -> Option<CompletionResponse> {
         is_incomplete,
         items: items.map(item).collect(),
     }))
-}
-
-/// The weakest evidence that the user wants to see.
-pub fn weakest(query: &Query) -> Evidence {
-    match query.world.config.suggestions.evidence {
-        Weakest::Handover => Evidence::Handover,
-        Weakest::Possible => Evidence::Possible,
-    }
 }
 
 /// What a variable is, for the item that remembers it.

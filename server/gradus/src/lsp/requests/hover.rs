@@ -1,9 +1,10 @@
 //! `textDocument/hover`.
 
-use source::Span;
+use ide::Target;
 use tower_lsp::ls_types::{Hover, HoverContents, MarkupContent, MarkupKind, Position};
 
 use crate::lsp::query::{Pair, Query};
+use crate::lsp::virtual_document::{self, Page};
 
 /// What is known of the thing at a position.
 pub fn answer(query: &Query, at: Position) -> Option<Hover> {
@@ -23,7 +24,7 @@ pub fn answer(query: &Query, at: Position) -> Option<Hover> {
     let (kind, value) = match query.world.abilities.markdown {
         true => (
             MarkupKind::Markdown,
-            hover.markdown(&|span| link(query, &pair, span)),
+            hover.markdown(&|target| link(query, &pair, target)),
         ),
         false => (MarkupKind::PlainText, hover.plain()),
     };
@@ -33,11 +34,22 @@ pub fn answer(query: &Query, at: Position) -> Option<Hover> {
     })
 }
 
-/// The address of a place in the ladder, with its line, for clients that lead
-/// there. Others would show all of it.
-fn link(query: &Query, pair: &Pair, span: Span) -> Option<String> {
-    let ladder = pair.ladder.as_ref()?;
-    let leads = query.world.abilities.virtual_documents && ladder.key.path().is_some();
-    let line = query.encoding().range(&ladder.rope, span).start.line + 1;
-    leads.then(|| format!("{}#L{line}", ladder.uri.as_str()))
+/// The address of a place in the ladder, with its line, or of a page, for
+/// clients that lead there. Others would show all of it.
+fn link(query: &Query, pair: &Pair, target: Target) -> Option<String> {
+    if !query.world.abilities.virtual_documents {
+        return None;
+    }
+    match target {
+        Target::Rung(span) => {
+            let ladder = pair.ladder.as_ref()?;
+            ladder.key.path()?;
+            let line = query.encoding().range(&ladder.rope, span).start.line + 1;
+            Some(format!("{}#L{line}", ladder.uri.as_str()))
+        }
+        Target::Page(term) => {
+            let page = virtual_document::page(Page::Term(term))?;
+            Some(page.as_str().to_owned())
+        }
+    }
 }

@@ -6,7 +6,7 @@ use crate::lsp::query::Query;
 
 /// The hints in a range.
 pub fn answer(query: &Query, range: Range) -> Option<Vec<InlayHint>> {
-    if !query.world.config.inlay_hints.enable {
+    if !query.config().inlay_hints.enable {
         return None;
     }
     let span = query.encoding().span(&query.document.rope, range);

@@ -5,7 +5,6 @@ use tower_lsp::ls_types::{
     InlineCompletionTriggerKind,
 };
 
-use super::completion::weakest;
 use crate::lsp::query::Query;
 
 /// Lines that somebody leafs through who asks for them.
@@ -16,7 +15,7 @@ pub fn answer(query: &Query, params: &InlineCompletionParams) -> Option<InlineCo
     let spec = query.spec()?;
     let pair = query.pair();
     let offset = query.offset(params.text_document_position.position);
-    let (span, lines) = ide::next_at(spec, pair.ladder()?, offset, weakest(query), &query.budget)?;
+    let (span, lines) = ide::next_at(spec, pair.ladder()?, offset, query.weakest(), &query.budget)?;
     // While a list is open, ghost text must go on what is chosen there.
     let chosen = params.context.selected_completion_info.as_ref();
     let fits = |line: &str| chosen.is_none_or(|chosen| line.starts_with(&chosen.text));

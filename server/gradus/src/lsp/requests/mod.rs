@@ -20,3 +20,4 @@ pub mod selection;
 pub mod signature_help;
 pub mod symbols;
 pub mod tokens;
+pub mod workspace_diagnostic;

@@ -6,8 +6,8 @@ use tokio::io::{AsyncRead, ReadBuf};
 use tokio::sync::mpsc::{UnboundedReceiver, unbounded_channel};
 use tokio::sync::oneshot;
 
-use super::Output;
 use super::frame::{self, Frame};
+use super::{Output, framed};
 
 /// Standard input, as the protocol library reads it: well-formed frames only.
 #[derive(Debug)]
@@ -34,7 +34,7 @@ impl Input {
                             return;
                         }
                     }
-                    Frame::Refused(answer) => output.send(framed(answer.to_string().as_bytes())),
+                    Frame::Refused(answer) => output.message(&answer),
                     Frame::End => return,
                 }
             }
@@ -46,12 +46,6 @@ impl Input {
         };
         (input, ended)
     }
-}
-
-fn framed(body: &[u8]) -> Vec<u8> {
-    let mut frame = format!("Content-Length: {}\r\n\r\n", body.len()).into_bytes();
-    frame.extend_from_slice(body);
-    frame
 }
 
 impl AsyncRead for Input {

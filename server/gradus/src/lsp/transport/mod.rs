@@ -12,3 +12,10 @@ mod output;
 
 pub use input::Input;
 pub use output::Output;
+
+/// A message as it goes over a stream.
+fn framed(body: &[u8]) -> Vec<u8> {
+    let mut frame = format!("Content-Length: {}\r\n\r\n", body.len()).into_bytes();
+    frame.extend_from_slice(body);
+    frame
+}

@@ -4,8 +4,11 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use std::task::{Context, Poll};
 use std::time::{Duration, Instant};
 
+use serde_json::Value;
 use tokio::io::AsyncWrite;
 use tokio::sync::watch;
+
+use super::framed;
 
 /// Standard output, as the protocol library writes it: never full. Clones write
 /// to the same stream, each a whole frame at a time.
@@ -41,6 +44,12 @@ impl Output {
             waiting,
             partial: Vec::new(),
         }
+    }
+
+    /// Writes a message, before whatever the library begins to write from now
+    /// on.
+    pub fn message(&self, message: &Value) {
+        self.send(framed(message.to_string().as_bytes()));
     }
 
     /// Writes `frame` when all before it are written.
