@@ -126,7 +126,8 @@ impl Misfit {
     }
 }
 
-fn unreadable(name: &str, span: Span, trouble: &str) -> Diagnostic {
+/// A file that a scenario names and that cannot be a part of what it runs on.
+pub fn unreadable(name: &str, span: Span, trouble: &str) -> Diagnostic {
     let message = format!("{name}: {trouble}");
     Diagnostic::new(codes::FILE_UNREADABLE, span, message)
         .help("the path is seen from the folder of the scenario")

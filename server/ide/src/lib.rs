@@ -67,7 +67,8 @@ pub use decided::{Decided, Standing};
 pub use folding::{Fold, folds_in_ladder, folds_in_scenario, folds_in_spec};
 pub use hints::{Hint, hints_in_ladder, hints_in_spec};
 pub use hover::{
-    Block, Hover, Rungs, hover_in_ladder, hover_in_scenario, hover_in_spec, hover_of_variable,
+    Block, Hover, RunOn, Rungs, hover_in_ladder, hover_in_scenario, hover_in_spec,
+    hover_of_variable,
 };
 pub use ladder::Ladder;
 pub use layout::{Extent, lay_out_ladder, lay_out_scenario, lay_out_spec};

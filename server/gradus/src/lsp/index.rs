@@ -18,7 +18,7 @@ use super::document::Document;
 use super::key::FileKey;
 use super::position::Encoding;
 use super::world::World;
-use crate::input::{ENDINGS, expand_while};
+use crate::input::{CHECKED, expand_while};
 
 /// A name in a file.
 #[derive(Clone, Debug)]
@@ -72,7 +72,7 @@ impl Index {
             .iter()
             .filter_map(|it| it.path().map(PathBuf::from))
             .collect();
-        let found = expand_while(&folders, ENDINGS, wanted);
+        let found = expand_while(&folders, CHECKED, wanted);
         let files = found.candidates.iter().take(MOST_FILES);
         keys.extend(files.map(|it| FileKey::of_path(&it.path)));
         let mut all = Vec::new();

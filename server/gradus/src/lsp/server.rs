@@ -249,11 +249,13 @@ impl LanguageServer for Server {
         let mut matters = false;
         for change in params.changes {
             let key = FileKey::of(&change.uri);
-            let partners = self.shared.state.change(|world| {
+            let (partners, runs) = self.shared.state.change(|world| {
                 world.disk.forget(&key);
-                world.open_partners(&key)
+                let runs = world.open.values().any(|it| it.may_be_scenario());
+                (world.open_partners(&key), runs)
             });
-            matters |= !partners.is_empty();
+            matters |= runs || !partners.is_empty();
+            telling::scenarios(&self.shared, &key);
             for partner in partners {
                 telling::changed(&self.shared, &partner.key);
             }
@@ -318,6 +320,28 @@ impl LanguageServer for Server {
         match requests::command::read(params)? {
             Command::Explain(code) => Ok(Some(requests::command::page(code))),
             Command::Report => Ok(Some(requests::command::report(&world, &self.shared.log))),
+            Command::Simulate(uri) => {
+                let what = format!("{} holds no scenario", uri.as_str());
+                let shown = about(world, uri, requests::simulate::table);
+                shown
+                    .await?
+                    .map(Some)
+                    .ok_or_else(|| Error::invalid_params(what))
+            }
+            Command::ShowScan(uri, line) => {
+                let found = about(world, uri, move |query| {
+                    requests::simulate::scan(query, line)
+                });
+                let found = found.await?;
+                let what = "in that line no step of a scenario was run";
+                let (chosen, answer) = found.ok_or_else(|| Error::invalid_params(what))?;
+                telling::choose(&self.shared, Some(chosen));
+                Ok(Some(answer))
+            }
+            Command::HideScan => {
+                telling::choose(&self.shared, None);
+                Ok(None)
+            }
             Command::Ladder(uri, command) => {
                 let done = about(world, uri.clone(), move |query| {
                     requests::command::answer(query, &command)

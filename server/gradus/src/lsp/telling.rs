@@ -23,7 +23,8 @@ use super::query::elsewhere;
 use super::requests::command::Done;
 use super::server::Shared;
 use super::status::{self, StatusNotification};
-use crate::input::ENDINGS;
+use super::world::Chosen;
+use crate::input::CHECKED;
 
 /// How long the client may take for an answer.
 const PATIENCE: Duration = Duration::from_secs(10);
@@ -65,7 +66,7 @@ pub fn register(shared: &Arc<Shared>) {
     }
     let shared = Arc::clone(shared);
     tokio::spawn(async move {
-        let watchers = ENDINGS.iter().map(|ending| FileSystemWatcher {
+        let watchers = CHECKED.iter().map(|ending| FileSystemWatcher {
             glob_pattern: GlobPattern::String(format!("**/*.{}", in_any_case(ending))),
             kind: None,
         });
@@ -120,6 +121,12 @@ pub fn ask_for_settings(shared: &Arc<Shared>) {
     });
 }
 
+/// Shows a scan in ladder and spec, or none any more.
+pub fn choose(shared: &Arc<Shared>, chosen: Option<Chosen>) {
+    shared.state.change(|world| world.chosen = chosen);
+    refresh(shared);
+}
+
 /// Tells everything about every open document anew.
 pub fn everything(shared: &Arc<Shared>) {
     let world = shared.state.world();
@@ -136,7 +143,25 @@ pub fn changed(shared: &Arc<Shared>, key: &FileKey) {
     for partner in shared.state.world().open_partners(key) {
         findings(shared, &partner.key);
     }
+    scenarios(shared, key);
     status(shared, key);
+}
+
+/// Tells the findings of the open scenarios that run on the document of `key`.
+pub fn scenarios(shared: &Arc<Shared>, key: &FileKey) {
+    let world = shared.state.world();
+    let mut open = world.open.values();
+    if world.abilities.pulls_diagnostics || !open.any(|it| it.may_be_scenario()) {
+        return;
+    }
+    let (shared, key) = (Arc::clone(shared), key.clone());
+    tokio::spawn(async move {
+        // To know what a scenario runs on, it must be read.
+        let found = elsewhere(move |_| world.open_scenarios_on(&key)).await;
+        for scenario in found.unwrap_or_default() {
+            findings(&shared, &scenario.key);
+        }
+    });
 }
 
 /// Tells clients that show it how the ladder and the spec of `key` stand.
@@ -175,6 +200,7 @@ pub fn closed(shared: &Arc<Shared>, document: &Document) {
         for partner in world.open_partners(&key) {
             findings(&shared, &partner.key);
         }
+        scenarios(&shared, &key);
     });
 }
 
@@ -204,20 +230,22 @@ async fn tell(shared: &Arc<Shared>, key: &FileKey, in_vain: Cancel) {
         return;
     };
     let (uri, version) = (document.uri.clone(), document.version);
-    let current = Arc::clone(&document);
-    // Of a ladder that changes meanwhile only a part may have been read.
-    let mut used = world.open_partners(key);
-    used.push(Arc::clone(&document));
     let budget = Budget {
         cancel: in_vain.clone(),
         ..Budget::default()
     };
     let under_way = progress::under_way(shared, Work::Analysis(document.key.clone()));
-    let found = elsewhere(move |_| publish::diagnostics(&world, &current, &budget)).await;
+    let found = elsewhere(move |_| {
+        let found = publish::diagnostics(&world, &document, &budget);
+        // Of a ladder that changes meanwhile only a part may have been read.
+        let used = world.used_by(&document);
+        (found, used.iter().any(|it| it.is_outdated()))
+    });
+    let found = found.await;
     drop(under_way);
     match found {
-        Ok(_) if in_vain.is_cancelled() || used.iter().any(|it| it.is_outdated()) => {}
-        Ok(found) => shared.client.publish_diagnostics(uri, found, version).await,
+        Ok((_, is_outdated)) if in_vain.is_cancelled() || is_outdated => {}
+        Ok((found, _)) => shared.client.publish_diagnostics(uri, found, version).await,
         Err(error) => shared.log.line(error.message.into_owned()),
     }
 }

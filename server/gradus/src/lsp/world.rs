@@ -17,6 +17,7 @@ use super::document::{Contents, Document};
 use super::index::Index;
 use super::key::{FileKey, beside};
 use super::position::Encoding;
+use super::runs::Runs;
 use crate::input::LADDER_ENDINGS;
 
 /// What the server knows at one moment.
@@ -34,6 +35,19 @@ pub struct World {
     pub disk: Arc<Disk>,
     /// The names in all folders.
     pub index: Arc<Index>,
+    /// What came of scenarios.
+    pub runs: Arc<Runs>,
+    /// The scan that is shown in ladder and spec.
+    pub chosen: Option<Chosen>,
+}
+
+/// A scan of a scenario: the last one of a step.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Chosen {
+    /// The scenario.
+    pub scenario: FileKey,
+    /// The step, from 0.
+    pub step: usize,
 }
 
 impl World {
@@ -83,6 +97,15 @@ impl World {
             Contents::Ladder(ladder) => ladder.is_known(),
             _ => false,
         })
+    }
+
+    /// The open ladders and specs in the folder of the document of `key`.
+    pub fn open_beside<'w>(&'w self, key: &'w FileKey) -> impl Iterator<Item = &'w Document> {
+        let folder = |key: &FileKey| key.path().and_then(|it| Some(it.parent()?.to_owned()));
+        let own = folder(key);
+        let open = self.open.values().map(|it| &**it);
+        let beside = open.filter(move |it| own.is_some() && folder(&it.key) == own);
+        beside.filter(|it| matches!(it.contents(), Contents::Ladder(_) | Contents::Spec(_)))
     }
 
     /// The document that belongs to this one, if it is open: the spec of a

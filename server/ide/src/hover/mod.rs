@@ -17,7 +17,7 @@ use markdown::{escaped, in_brackets};
 
 pub(crate) use ladder::rung_title;
 pub use ladder::{hover_in_ladder, hover_of_variable};
-pub use scenario::hover_in_scenario;
+pub use scenario::{RunOn, hover_in_scenario};
 pub use spec::hover_in_spec;
 
 /// What is shown of the thing under the pointer.

@@ -11,22 +11,32 @@ use crate::navigate::Pair;
 use crate::scenario::{fields, variable};
 use crate::{Run, Scenario, StepName};
 
+/// A run, and what it was of.
+#[derive(Clone, Copy, Debug)]
+pub struct RunOn<'r> {
+    /// The ladder, the spec or both that ran.
+    pub run_on: Pair<'r>,
+    /// What came of it.
+    pub run: &'r Run,
+}
+
 /// What is known of the thing at the byte `offset` of a scenario: a name, as the
 /// ladder or the spec tells of it, with its value after that step; elsewhere in
 /// a step how its last scan ended.
 pub fn hover_in_scenario(
     scenario: &Scenario,
     pair: Pair<'_>,
-    run: &Run,
+    own: RunOn<'_>,
     offset: usize,
     budget: &Budget,
 ) -> Option<Hover> {
+    let RunOn { run_on, run } = own;
     let Some(named) = scenario.name_at(offset) else {
-        return of_scenario_step(scenario, pair, run, offset);
+        return of_scenario_step(scenario, run_on, run, offset);
     };
     let mut hover = of_name(pair, named.name, budget)?;
     hover.span = named.span;
-    let values = values(scenario, pair, run, named, budget);
+    let values = values(scenario, run_on, run, named, budget);
     hover.blocks.splice(0..0, values);
     Some(hover)
 }
@@ -127,7 +137,12 @@ mod tests {
         let offset = text.find("$0").expect("a cursor");
         let tank = Tank::new(LADDER, SPEC, &text.replace("$0", ""));
         let budget = Budget::default();
-        let hover = hover_in_scenario(&tank.scenario, tank.pair(), &tank.run(), offset, &budget)?;
+        let run = tank.run();
+        let own = RunOn {
+            run_on: tank.pair(),
+            run: &run,
+        };
+        let hover = hover_in_scenario(&tank.scenario, tank.pair(), own, offset, &budget)?;
         Some(hover.plain())
     }
 

@@ -62,19 +62,28 @@ impl Run {
         Self::within(scenario, pair, extent)
     }
 
-    fn within(scenario: &Scenario, pair: Pair<'_>, extent: Extent<'_>) -> Self {
+    /// What there is to say of a scenario that is not run, since something that
+    /// it runs on is missing.
+    pub fn left_out(scenario: &Scenario, pair: Pair<'_>) -> Self {
         let subject = subject(pair);
         let is_there = subject.ladder.is_some() || subject.grafcet.is_some();
-        let unknown = match is_there {
-            true => unknown_names(&scenario.reading.scenario, subject),
-            false => Vec::new(),
-        };
-        let is_run = is_there && unknown.is_empty() && scenario.reading.diagnostics.is_empty();
-        let simulation =
-            is_run.then(|| simulate_within(&scenario.reading.scenario, subject, extent));
         Self {
-            unknown,
-            simulation,
+            unknown: match is_there {
+                true => unknown_names(&scenario.reading.scenario, subject),
+                false => Vec::new(),
+            },
+            simulation: None,
+        }
+    }
+
+    fn within(scenario: &Scenario, pair: Pair<'_>, extent: Extent<'_>) -> Self {
+        let left_out = Self::left_out(scenario, pair);
+        let is_there = pair.ladder.is_some() || pair.spec.is_some();
+        let has_mistakes = !left_out.unknown.is_empty() || !scenario.reading.diagnostics.is_empty();
+        let runs = || simulate_within(&scenario.reading.scenario, subject(pair), extent);
+        Self {
+            simulation: (is_there && !has_mistakes).then(runs),
+            ..left_out
         }
     }
 
