@@ -6,6 +6,7 @@ import { decisions } from "./decisions.mjs";
 import { Editor } from "./editor.mjs";
 import { hovers } from "./hovers.mjs";
 import { life } from "./life.mjs";
+import { scenarios } from "./scenarios.mjs";
 import { start } from "./start.mjs";
 import { startWorkbench } from "./workbench.mjs";
 
@@ -29,6 +30,7 @@ describe("VS Code", { timeout: 600_000 }, () => {
   describe("hovers", () => hovers(at));
   describe("decisions", () => decisions(at));
   describe("commands", () => commands(at));
+  describe("scenarios", () => scenarios(at));
   describe("start of the server", () => start(at, vsix));
   describe("life of the server", () => life(at));
 });

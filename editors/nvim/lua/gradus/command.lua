@@ -60,6 +60,25 @@ local function code_at_cursor()
   return nearest
 end
 
+--- Asks the server to run a command about the scenario in the current buffer, at the cursor's line.
+---@param command string
+---@param on_answer fun(answer: any)
+local function ask_of_scenario(command, on_answer)
+  if vim.bo.filetype ~= 'gradus-scenario' then
+    tell('this buffer holds no scenario', vim.log.levels.WARN)
+    return
+  end
+  local line = vim.api.nvim_win_get_cursor(0)[1] - 1
+  ask(command, { uri = vim.uri_from_bufnr(0), line = line }, on_answer)
+end
+
+--- Shows the table of a scenario's scans.
+---@param answer { title: string, language: string, text: string, summary: string }
+local function show_scans(answer)
+  beside.show_text(answer)
+  tell(answer.summary)
+end
+
 ---@class gradus.Subcommand
 ---@field does string
 ---@field choices? string[] what may follow it
@@ -102,6 +121,25 @@ local subcommands = {
     does = 'show the conditions of all coils',
     run = function()
       ask('gradus.conditions', { uri = ladder() }, beside.show_text)
+    end,
+  },
+  simulate = {
+    does = 'run the scenario, and show its scans',
+    run = function()
+      ask_of_scenario('gradus.simulate', show_scans)
+    end,
+  },
+  scan = {
+    does = "show the scan of the cursor's line in ladder and spec; off takes it back",
+    choices = { 'off' },
+    run = function(off)
+      if off then
+        ask('gradus.hideScan', vim.empty_dict(), function() end)
+        return
+      end
+      ask_of_scenario('gradus.showScan', function(answer)
+        tell(('scan %d is shown, after %s'):format(answer.scan, answer.done))
+      end)
     end,
   },
   explain = {
@@ -152,6 +190,12 @@ end
 local function takes(subcommand, choice)
   return vim.list_contains(subcommand.choices or {}, choice)
     or subcommand.pattern ~= nil and choice:find(subcommand.pattern) ~= nil
+end
+
+--- Runs the scenario that a lens stands above.
+---@param uri string
+function M.simulate(uri)
+  ask('gradus.simulate', { uri = uri }, show_scans)
 end
 
 ---@param words string[]
