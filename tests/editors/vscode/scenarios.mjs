@@ -28,11 +28,11 @@ export function scenarios(at) {
     const { editor } = at;
     const { tank, scenario } = newTank("expected");
     await editor.open(scenario);
-    await editor.shows(scenario, "passes on the ladder");
+    await editor.hasLens(scenario, "passes on the ladder");
     await breakLadder(tank);
     await editor.open(scenario);
     await editor.findings("error", 1);
-    await editor.shows(scenario, "1 expectation not met on the ladder");
+    await editor.hasLens(scenario, "1 expectation not met on the ladder");
     await editor.goTo(2, 1);
     await editor.picture("scenario-fails");
     await editor.act(/Expect what the ladder does/);
@@ -48,7 +48,7 @@ export function scenarios(at) {
     const { editor } = at;
     const { tank, scenario } = newTank("table");
     await editor.open(scenario);
-    await editor.shows(scenario, "passes on the ladder");
+    await editor.hasLens(scenario, "passes on the ladder");
     await editor.run("Gradus: Run the Scenario");
     await editor.shows(`${scenario}.txt`, "2 scans; all is as expected");
     await editor.picture("scenario-table");
@@ -60,7 +60,7 @@ export function scenarios(at) {
     const { editor } = at;
     const { tank, scenario } = newTank("scan");
     await editor.open(scenario);
-    await editor.shows(scenario, "passes on the ladder");
+    await editor.hasLens(scenario, "passes on the ladder");
     await editor.goTo(1, 1);
     await editor.run("Gradus: Show the Scan at the Cursor in Ladder and Spec");
     await editor.open(tank.ladder);

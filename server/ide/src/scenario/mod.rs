@@ -95,8 +95,9 @@ impl Scenario {
         self.steps().iter().position(in_line)
     }
 
-    /// What stands for the scenario as a whole: the words of its title, else its
-    /// first line that says something.
+    /// What stands for the scenario as a whole: the words of its title, else the
+    /// word that it begins with. Never a variable, for a link would stand in the
+    /// way to its coil.
     pub fn heading(&self) -> Option<Span> {
         let lines = crate::statement::lines(&self.text);
         let said = lines
@@ -110,8 +111,12 @@ impl Scenario {
         match lines.iter().find(|tokens| title(tokens)) {
             Some(tokens) => Some(tokens[1].span),
             None => {
-                let first = lines.first()?;
-                Some(first.first()?.span.cover(first.last()?.span))
+                let first = lines.first()?.first()?;
+                let is_word = ::scenario::WORDS.contains(&first.text(&self.text));
+                Some(match is_word {
+                    true => first.span,
+                    false => Span::at(first.span.range().start),
+                })
             }
         }
     }
@@ -161,7 +166,7 @@ wait 5s => off v1
     }
 
     #[test]
-    fn the_title_stands_for_it_else_its_first_line() {
+    fn the_title_stands_for_it_else_its_first_word() {
         let heading = |text: &'static str| {
             let span = Scenario::read(text.into()).heading()?;
             Some(&text[span.range()])
@@ -169,8 +174,9 @@ wait 5s => off v1
         assert_eq!(heading(TEXT), Some("\"Filled\""));
         assert_eq!(
             heading("\u{feff}// x\r\n on s => on q // y\r\n"),
-            Some("on s => on q")
+            Some("on")
         );
+        assert_eq!(heading("Level = 5\n"), Some(""));
         assert_eq!(heading("// nothing\n"), None);
     }
 }
