@@ -53,6 +53,19 @@ fn a_scenario_says_above_its_title_how_it_went() {
 }
 
 #[test]
+fn the_client_is_asked_to_ask_again_when_the_ladder_changes() {
+    let (mut client, _) = tank(SCENARIO);
+    assert_eq!(lenses(&mut client, "fill.scenario").len(), 1);
+    for typed in 1..20 {
+        client.replace("tank.ladder", "/ls2", &format!("/ls2*/a{typed}"));
+    }
+    client.replace("tank.ladder", "(s + v1)", "s");
+    client.refreshed("workspace/codeLens/refresh");
+    client.refreshed("workspace/inlayHint/refresh");
+    assert_eq!(lenses(&mut client, "fill.scenario").len(), 2);
+}
+
+#[test]
 fn a_ladder_and_its_spec_name_the_scenarios_that_run_on_them() {
     let (mut client, _) = tank(SCENARIO);
     client.write("empty.scenario", "for tank.grafcet\noff s\n");

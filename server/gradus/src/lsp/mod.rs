@@ -38,6 +38,7 @@ mod query;
 mod requests;
 mod runs;
 mod server;
+mod shown;
 mod simulation;
 mod status;
 mod teller;

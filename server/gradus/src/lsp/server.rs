@@ -21,6 +21,7 @@ use super::log::Log;
 use super::progress::{self, Shown, Work};
 use super::query::{self, Query, about};
 use super::requests::command::Command;
+use super::shown::Changes;
 use super::teller::Tellers;
 use super::transport::Output;
 use super::world::State;
@@ -60,6 +61,8 @@ pub struct Shared {
     pub tellers: Tellers,
     /// What the client shows of work that takes long.
     pub progress: Shown,
+    /// Changes of what lenses and hints of other documents depend on.
+    pub changes: Changes,
 }
 
 impl Server {
@@ -73,6 +76,7 @@ impl Server {
                 output,
                 tellers: Tellers::default(),
                 progress: Shown::default(),
+                changes: Changes::default(),
             }),
             end,
         })

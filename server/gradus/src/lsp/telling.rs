@@ -22,6 +22,7 @@ use super::publish;
 use super::query::elsewhere;
 use super::requests::command::Done;
 use super::server::Shared;
+use super::shown;
 use super::status::{self, StatusNotification};
 use super::world::Chosen;
 use crate::input::CHECKED;
@@ -147,19 +148,27 @@ pub fn changed(shared: &Arc<Shared>, key: &FileKey) {
     status(shared, key);
 }
 
-/// Tells the findings of the open scenarios that run on the document of `key`.
+/// Tells what is new of the open scenarios that run on the document of `key`:
+/// their findings, and that their lenses and hints may be others now. Those of
+/// ladder and spec are, too, when it is the scenario of which a scan is shown.
 pub fn scenarios(shared: &Arc<Shared>, key: &FileKey) {
     let world = shared.state.world();
-    let mut open = world.open.values();
-    if world.abilities.pulls_diagnostics || !open.any(|it| it.may_be_scenario()) {
+    if world.chosen.as_ref().is_some_and(|it| it.scenario == *key) {
+        shown::ask_again(shared);
+    }
+    if !world.open.values().any(|it| it.may_be_scenario()) {
         return;
     }
     let (shared, key) = (Arc::clone(shared), key.clone());
     tokio::spawn(async move {
         // To know what a scenario runs on, it must be read.
         let found = elsewhere(move |_| world.open_scenarios_on(&key)).await;
-        for scenario in found.unwrap_or_default() {
+        let found = found.unwrap_or_default();
+        for scenario in &found {
             findings(&shared, &scenario.key);
+        }
+        if !found.is_empty() {
+            shown::ask_again(&shared);
         }
     });
 }
