@@ -155,6 +155,20 @@ fn files_that_cannot_be_run_on_are_told_at_their_names() {
 }
 
 #[test]
+fn the_only_ladder_in_the_folder_is_run_with_its_unsaved_spec() {
+    let mut client = crate::client();
+    client.write("tank.ladder", LADDER);
+    client.write("tank.xml", "<note/>");
+    client.open("tank.grafcet", SPEC);
+    client.open("start.scenario", "on s => on v1, off Xv1\n");
+    let spec = "1: G5003 Xv1 should be off after scan 1, but the spec has it on \
+                [tank.grafcet 2: what the spec says of Xv1]";
+    assert_eq!(said(&mut client, "start.scenario"), [spec]);
+    client.write("motor.ladder", "rung: a -> b\n");
+    assert_eq!(said(&mut client, "start.scenario"), [""; 0]);
+}
+
+#[test]
 fn a_scenario_beside_nothing_has_only_its_text() {
     let mut client = crate::client();
     client.open("alone.scenario", "on s => on v1\n?\n");

@@ -25,7 +25,8 @@ mod trace;
 const DETAILS: &str = "\
 The files are told apart by what they hold: a scenario, and the ladder, the spec
 or both that it runs on. A scenario alone runs on what its `for` line names, or
-on the files of its name beside it. docs/notation.md tells how one is written.
+on the files of its name beside it, or on the only ladder in its folder and the
+spec of that. docs/notation.md tells how one is written.
 
 Ladder and spec get the same inputs and the same time. What the spec reads and
 the ladder writes, such as the output of a timer, comes from the ladder. The

@@ -1,7 +1,8 @@
 //! What scenarios run on, and which scenarios run on a ladder or a spec.
 //!
 //! A scenario runs on the files that its `for` line names, or on those of its
-//! name beside it, as `gradus simulate` has it; unsaved texts count. Beyond that
+//! name beside it, or on the only ladder in its folder and its spec, as `gradus
+//! simulate` has it; unsaved texts count. Beyond that
 //! it belongs to the pair of which one of these is a part: names lead to both.
 
 use std::collections::BTreeMap;
@@ -17,6 +18,7 @@ use super::key::{FileKey, in_folder_of};
 use super::query::Pair;
 use super::world::World;
 use crate::file;
+use crate::input;
 use crate::subject::{Misfit, unreadable};
 
 /// What a scenario runs on.
@@ -37,6 +39,9 @@ impl Plant {
         if files.is_empty() {
             plant.pair.ladder = world.ladder_of(document);
             plant.pair.spec = world.spec_of(document);
+            if plant.pair.ladder.is_none() && plant.pair.spec.is_none() {
+                plant.pair = only_pair(world, document).unwrap_or_default();
+            }
             return Some(plant);
         }
         for named in files {
@@ -90,6 +95,19 @@ impl Plant {
         let parts = self.pair.ladder.iter().chain(&self.pair.spec);
         parts.into_iter().any(|document| document.is_outdated())
     }
+}
+
+/// The only ladder in the folder of a document, and the spec beside it.
+fn only_pair(world: &World, document: &Document) -> Option<Pair> {
+    let ladder = input::only_ladder(document.key.path()?, |path| {
+        let document = world.document(&FileKey::of_path(path).uri()?)?;
+        let is_known = document.ladder().is_some_and(|it| it.is_known());
+        is_known.then_some(document)
+    })?;
+    Some(Pair {
+        spec: world.spec_of(&ladder),
+        ladder: Some(ladder),
+    })
 }
 
 fn missing() -> String {
