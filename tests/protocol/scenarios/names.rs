@@ -1,29 +1,23 @@
 use end_to_end::lsp::{Client, Profile, selected};
 use tower_lsp::ls_types::request::{
-    Completion, DocumentHighlightRequest, GotoDeclaration, GotoDefinition, HoverRequest,
-    PrepareRenameRequest, References, Rename,
+    Completion, DocumentHighlightRequest, GotoDeclaration, GotoDefinition, PrepareRenameRequest,
+    References, Rename,
 };
 use tower_lsp::ls_types::{
     CompletionParams, CompletionResponse, DocumentHighlightParams, GotoDefinitionParams,
-    GotoDefinitionResponse, HoverContents, HoverParams, Location, PrepareRenameResponse,
-    ReferenceContext, ReferenceParams, RenameParams,
+    GotoDefinitionResponse, Location, PrepareRenameResponse, ReferenceContext, ReferenceParams,
+    RenameParams,
 };
 
 use super::{LADDER, SCENARIO, SPEC, tank, with_cursor};
 use crate::client_like;
+use crate::hover::markup_at;
 use crate::rename::after;
 
 fn hover(context: &str) -> String {
     let (mut client, marked) = tank(&with_cursor(context));
-    let params = HoverParams {
-        text_document_position_params: client.at("fill.scenario", marked.position(0, false)),
-        work_done_progress_params: Default::default(),
-    };
-    let hover = client.request::<HoverRequest>(params).expect("a hover");
-    match hover.contents {
-        HoverContents::Markup(markup) => markup.value,
-        other => panic!("no markup: {other:?}"),
-    }
+    let at = client.at("fill.scenario", marked.position(0, false));
+    markup_at(&mut client, at)
 }
 
 #[test]

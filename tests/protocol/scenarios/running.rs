@@ -1,18 +1,12 @@
 use end_to_end::lsp::{Client, Profile};
 use serde_json::{Value, json};
-use tower_lsp::ls_types::ExecuteCommandParams;
-use tower_lsp::ls_types::request::ExecuteCommand;
 
 use super::{LADDER, SCENARIO, SPEC, tank};
+use crate::commands::ask;
 use crate::lenses::{hints, lenses};
 
 fn run(client: &mut Client, command: &str, argument: Value) -> Option<Value> {
-    let params = ExecuteCommandParams {
-        command: command.to_owned(),
-        arguments: vec![argument],
-        work_done_progress_params: Default::default(),
-    };
-    client.request::<ExecuteCommand>(params)
+    ask(client, command, argument).expect("no refusal")
 }
 
 /// The hints of a document: its text with each between `«` and `»`.
@@ -195,12 +189,7 @@ fn what_makes_no_sense_is_refused_with_a_reason() {
             "gradus.showScan: missing field `line`",
         ),
     ] {
-        let params = ExecuteCommandParams {
-            command: command.to_owned(),
-            arguments: vec![argument],
-            work_done_progress_params: Default::default(),
-        };
-        let refused = client.ask::<ExecuteCommand>(params).expect_err("refused");
+        let refused = ask(&mut client, command, argument).expect_err("refused");
         assert_eq!((refused.code, &*refused.message), (-32602, reason));
     }
 }

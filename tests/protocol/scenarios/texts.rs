@@ -1,17 +1,17 @@
 use end_to_end::lsp::{Client, selected};
 use tower_lsp::ls_types::request::{
-    DocumentLinkRequest, DocumentSymbolRequest, FoldingRangeRequest, Formatting, OnTypeFormatting,
-    RangeFormatting, SelectionRangeRequest, SemanticTokensFullRequest, WorkspaceSymbolRequest,
+    DocumentSymbolRequest, FoldingRangeRequest, Formatting, OnTypeFormatting, RangeFormatting,
+    SelectionRangeRequest, SemanticTokensFullRequest, WorkspaceSymbolRequest,
 };
 use tower_lsp::ls_types::{
-    DocumentFormattingParams, DocumentLinkParams, DocumentOnTypeFormattingParams,
-    DocumentRangeFormattingParams, DocumentSymbolParams, DocumentSymbolResponse,
-    FoldingRangeParams, FormattingOptions, Range, SelectionRangeParams, SemanticTokensParams,
-    SemanticTokensResult, SymbolKind, TextDocumentIdentifier, WorkspaceSymbolParams,
-    WorkspaceSymbolResponse,
+    DocumentFormattingParams, DocumentOnTypeFormattingParams, DocumentRangeFormattingParams,
+    DocumentSymbolParams, DocumentSymbolResponse, FoldingRangeParams, FormattingOptions, Range,
+    SelectionRangeParams, SemanticTokensParams, SemanticTokensResult, SymbolKind,
+    TextDocumentIdentifier, WorkspaceSymbolParams, WorkspaceSymbolResponse,
 };
 
 use super::{LADDER, SCENARIO, tank, with_cursor};
+use crate::links::links;
 
 const NAME: &str = "fill.scenario";
 
@@ -169,33 +169,11 @@ fn names_are_coloured_as_in_the_ladder() {
     );
 }
 
-/// `text -> file (tooltip)`.
-fn links(client: &mut Client, name: &str) -> Vec<String> {
-    let params = DocumentLinkParams {
-        text_document: TextDocumentIdentifier {
-            uri: client.uri(name),
-        },
-        work_done_progress_params: Default::default(),
-        partial_result_params: Default::default(),
-    };
-    let found = client
-        .request::<DocumentLinkRequest>(params)
-        .expect("links");
-    let shown = found.iter().map(|it| {
-        let target = it.target.as_ref().expect("a target").as_str();
-        let file = target.rsplit('/').next().expect("a name");
-        let text = selected(client.text(name), it.range);
-        let tooltip = it.tooltip.as_deref().unwrap_or_default();
-        format!("{text} -> {file} ({tooltip})")
-    });
-    shown.collect()
-}
-
 #[test]
 fn a_scenario_and_what_it_runs_on_lead_to_each_other() {
     let (mut client, _) = tank(SCENARIO);
     assert_eq!(
-        links(&mut client, NAME),
+        links(&mut client, NAME).expect("links"),
         [
             "tank.ladder -> tank.ladder (Open the ladder tank.ladder)",
             "tank.grafcet -> tank.grafcet (Open the spec tank.grafcet)",
@@ -206,11 +184,11 @@ fn a_scenario_and_what_it_runs_on_lead_to_each_other() {
     client.open("tank.ladder", &format!("// see tank.scenario\n{LADDER}"));
     client.open("tank.scenario", "scenario \"Filled\"\non s\n");
     assert_eq!(
-        links(&mut client, "tank.scenario"),
+        links(&mut client, "tank.scenario").expect("links"),
         ["\"Filled\" -> tank.ladder (Open the ladder tank.ladder)"]
     );
     assert_eq!(
-        links(&mut client, "tank.ladder"),
+        links(&mut client, "tank.ladder").expect("links"),
         [
             "Tank -> tank.grafcet (Open the spec tank.grafcet)",
             "tank.scenario -> tank.scenario (Open the scenario tank.scenario)",

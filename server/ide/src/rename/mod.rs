@@ -69,15 +69,16 @@ pub fn renamable_in_spec(
     ladder: Option<&Ladder>,
     offset: usize,
 ) -> Option<Result<Renamable, Refusal>> {
-    let (target, span) = match target(spec, ladder, offset)? {
-        Ok(found) => found,
-        Err(refusal) => return Some(Err(refusal)),
-    };
+    Some(target(spec, ladder, offset)?.map(renamable))
+}
+
+/// What was found at a place, as it is shown.
+fn renamable((target, span): (Target, Span)) -> Renamable {
     let name = match target {
         Target::Variable(variable) => variable.name.to_string(),
         Target::Own(own) => own.name.to_string(),
     };
-    Some(Ok(Renamable { span, name }))
+    Renamable { span, name }
 }
 
 /// Renames the variable at the byte `offset` of a ladder, in the spec too.

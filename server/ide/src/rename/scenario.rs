@@ -1,12 +1,14 @@
 //! Renaming in scenarios: from one, and in all that name what is renamed.
 
 use grafcet::Role;
+use logic::notation::TokenKind;
 use logic::{Budget, Name};
 use source::{Edit, Span};
 
 use super::written::{variable_called, within_quotes};
-use super::{Own, Refusal, Renamable, Renaming, Target, rename_target};
+use super::{Own, Refusal, Renamable, Renaming, Target, renamable, rename_target};
 use crate::navigate::Pair;
+use crate::statement::{code, line, lines};
 use crate::{Scenario, StepName, edited, scenario::variable};
 
 /// What can be renamed at the byte `offset` of a scenario; `None` where no name
@@ -16,15 +18,7 @@ pub fn renamable_in_scenario(
     pair: Pair<'_>,
     offset: usize,
 ) -> Option<Result<Renamable, Refusal>> {
-    let (target, span) = match target(scenario, pair, offset)? {
-        Ok(found) => found,
-        Err(refusal) => return Some(Err(refusal)),
-    };
-    let name = match target {
-        Target::Variable(variable) => variable.name.to_string(),
-        Target::Own(own) => own.name.to_string(),
-    };
-    Some(Ok(Renamable { span, name }))
+    Some(target(scenario, pair, offset)?.map(renamable))
 }
 
 /// Renames what stands at the byte `offset` of a scenario in the ladder and in
@@ -99,6 +93,11 @@ pub fn edits_in_scenario(scenario: &Scenario, renaming: &Renaming) -> Result<Vec
             taken.name
         )));
     }
+    if let Some((name, line)) = not_understood(scenario, renaming) {
+        return Err(Refusal(format!(
+            "`{name}` also stands in line {line}, where it cannot be renamed safely"
+        )));
+    }
     let edits = scenario.names().filter_map(|it| {
         Some(Edit {
             span: it.span,
@@ -118,6 +117,21 @@ pub fn edits_in_scenario(scenario: &Scenario, renaming: &Renaming) -> Result<Vec
             "with that name a scenario would say something else".to_owned(),
         )),
     }
+}
+
+/// A name that would be renamed, in a line that was not understood, and that line,
+/// from 1.
+fn not_understood(scenario: &Scenario, renaming: &Renaming) -> Option<(String, usize)> {
+    let text = &*scenario.text;
+    let broken = scenario.reading.diagnostics.iter();
+    let mut tokens = broken.flat_map(|it| code(text, line(text, it.span.range().start)));
+    let token = tokens.find(|token| {
+        let is_name = matches!(token.kind, TokenKind::Name | TokenKind::Quoted);
+        is_name && new_name(&token.name(text).into(), renaming).is_some()
+    })?;
+    let before = text.get(..token.span.range().start)?;
+    let number = lines(before).len();
+    Some((token.name(text).to_owned(), number))
 }
 
 /// What a name in a scenario becomes, if it is renamed or a part of what is.
@@ -209,6 +223,11 @@ mod tests {
         assert_eq!(
             refused("on %I$01", "x"),
             "neither the ladder nor the spec has a `%I1`"
+        );
+        let text = "on s => on $0v1\r\nof s\r\nof v1 => on X\r\n";
+        assert_eq!(
+            renamed(text, "fill").expect_err("a refusal"),
+            "`v1` also stands in line 3, where it cannot be renamed safely"
         );
         let text = "on s => on $0v1, off fill\n";
         assert_eq!(
