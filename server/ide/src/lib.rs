@@ -2,8 +2,8 @@
 //!
 //! Every command and every editor asks here, so that they say the same. An
 //! answer holds names, texts and places in bytes; it knows no protocol, no
-//! terminal and no file. What is looked at is a [`Ladder`] and the [`Spec`]
-//! beside it. One thing to be shown is one file with one entry:
+//! terminal and no file. What is looked at is a [`Ladder`], the [`Spec`] beside
+//! it, and scenarios that run on them. One thing to be shown is one file with one entry:
 //!
 //! * [`coils`]: every coil with all that is known of it, in words;
 //! * [`said`] and [`legible`]: a condition in the notation, past a size that a
@@ -18,6 +18,8 @@
 //!   text names the one beside it;
 //! * [`hierarchy`]: which step follows which;
 //! * [`tokens`]: what each name is, for colouring;
+//! * [`Scenario`] and [`Run`]: a scenario, and what comes of it on a ladder and a
+//!   spec, said as findings, lenses, hints and hovers.
 
 mod actions;
 mod change;

@@ -147,7 +147,7 @@ fn a_scan_is_shown_in_ladder_and_spec_until_it_is_taken_back() {
     let answer = run(&mut client, "gradus.showScan", scan.clone()).expect("an answer");
     assert_eq!(
         answer,
-        json!({ "scan": 4, "time": 40, "step": 1, "done": "off s, scan 3" })
+        json!({ "scan": 4, "step": 1, "done": "off s, scan 3" })
     );
     let rung = "rung: (s + v1«●») * /ls2«●» -> v1«●»";
     let shown = hinted(&mut client, "tank.ladder");
@@ -171,6 +171,26 @@ fn a_scan_is_shown_in_ladder_and_spec_until_it_is_taken_back() {
 }
 
 #[test]
+fn any_scan_can_be_shown_by_its_number() {
+    let (mut client, _) = tank("for tank.ladder\non s, wait 5s\non ls2, wait 5s\n");
+    for (scan, step, rung) in [
+        (1, 0, "rung: (s«●» + v1) * /ls2«●» -> v1«●»"),
+        (2, 0, "rung: (s«●» + v1«●») * /ls2«●» -> v1«●»"),
+        (501, 1, "rung: (s«●» + v1«●») * /ls2 -> v1"),
+        (1000, 1, "rung: (s«●» + v1) * /ls2 -> v1"),
+    ] {
+        let argument = json!({ "uri": client.uri("fill.scenario"), "scan": scan });
+        let answer = run(&mut client, "gradus.showScan", argument).expect("an answer");
+        assert_eq!(
+            (&answer["scan"], &answer["step"]),
+            (&json!(scan), &json!(step))
+        );
+        let shown = hinted(&mut client, "tank.ladder");
+        assert_eq!(shown.lines().last(), Some(rung), "scan {scan}");
+    }
+}
+
+#[test]
 fn what_makes_no_sense_is_refused_with_a_reason() {
     let (mut client, _) = tank(SCENARIO);
     let uri = client.uri("fill.scenario");
@@ -181,12 +201,17 @@ fn what_makes_no_sense_is_refused_with_a_reason() {
         (
             "gradus.showScan",
             json!({ "uri": uri, "line": 0 }),
-            "in that line no step of a scenario was run",
+            "the scenario has no such scan, or was not run so far",
         ),
         (
             "gradus.showScan",
             json!({ "uri": uri }),
-            "gradus.showScan: missing field `line`",
+            "gradus.showScan: missing field `line` or `scan`",
+        ),
+        (
+            "gradus.showScan",
+            json!({ "uri": uri, "scan": 6 }),
+            "the scenario has no such scan, or was not run so far",
         ),
     ] {
         let refused = ask(&mut client, command, argument).expect_err("refused");

@@ -67,6 +67,13 @@ impl Query {
         Some((plant, run))
     }
 
+    /// The step of the scenario in the document of which a scan is shown.
+    pub fn chosen_step(&self, run: &Run) -> Option<usize> {
+        let chosen = self.world.chosen.as_ref();
+        let own = chosen.filter(|it| it.scenario == self.document.key)?;
+        own.scan.in_run(run).map(|(step, _)| step)
+    }
+
     /// What the document holds, as far as it is understood.
     pub fn text(&self) -> Option<Text<'_>> {
         if let Some(spec) = self.spec() {

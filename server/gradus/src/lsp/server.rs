@@ -332,12 +332,12 @@ impl LanguageServer for Server {
                     .map(Some)
                     .ok_or_else(|| Error::invalid_params(what))
             }
-            Command::ShowScan(uri, line) => {
+            Command::ShowScan(uri, wanted) => {
                 let found = about(world, uri, move |query| {
-                    requests::simulate::scan(query, line)
+                    requests::simulate::scan(query, wanted)
                 });
                 let found = found.await?;
-                let what = "in that line no step of a scenario was run";
+                let what = "the scenario has no such scan, or was not run so far";
                 let (chosen, answer) = found.ok_or_else(|| Error::invalid_params(what))?;
                 telling::choose(&self.shared, Some(chosen));
                 Ok(Some(answer))

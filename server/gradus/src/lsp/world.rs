@@ -8,6 +8,7 @@
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
+use ide::Run;
 use tower_lsp::ls_types::Uri;
 
 use super::abilities::Abilities;
@@ -41,13 +42,32 @@ pub struct World {
     pub chosen: Option<Chosen>,
 }
 
-/// A scan of a scenario: the last one of a step.
+/// A scan of a scenario.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Chosen {
     /// The scenario.
     pub scenario: FileKey,
-    /// The step, from 0.
-    pub step: usize,
+    /// Which of its scans.
+    pub scan: Scan,
+}
+
+/// How somebody chose a scan. What is edited later may move it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scan {
+    /// The last one of a step, from 0.
+    EndOf(usize),
+    /// The one of this number, from 1.
+    Number(u64),
+}
+
+impl Scan {
+    /// Its step and its number in a run, if that came so far.
+    pub fn in_run(self, run: &Run) -> Option<(usize, u64)> {
+        match self {
+            Self::EndOf(step) => Some((step, run.end_of(step)?.scan)),
+            Self::Number(number) => Some((run.step_of(number)?, number)),
+        }
+    }
 }
 
 impl World {

@@ -72,8 +72,9 @@ fn values(
     budget: &Budget,
 ) -> Vec<Block> {
     let wanted = || !budget.cancel.is_cancelled();
-    let moment = run.moment(scenario, pair, named.step, &wanted);
-    let (Some(row), Some(moment)) = (run.end_of(named.step), moment) else {
+    let row = run.end_of(named.step);
+    let moment = row.and_then(|row| run.moment(scenario, pair, row.scan, &wanted));
+    let (Some(row), Some(moment)) = (row, moment) else {
         return Vec::new();
     };
     let sides = [

@@ -99,15 +99,23 @@ impl Run {
         rows.rev().find(|row| row.step == step && row.is_last)
     }
 
-    /// What is in ladder and spec after the last scan of a step.
+    /// The step that a scan was done in, from 0; scans count from 1.
+    pub fn step_of(&self, scan: u64) -> Option<usize> {
+        let rows = self.simulation.as_ref()?.rows.iter();
+        let mut ends = rows.filter(|row| row.is_last);
+        let end = ends.find(|row| scan <= row.scan)?;
+        (scan > 0).then_some(end.step)
+    }
+
+    /// What is in ladder and spec after a scan.
     pub fn moment<'p>(
         &self,
         scenario: &Scenario,
         pair: Pair<'p>,
-        step: usize,
+        scan: u64,
         wanted: &dyn Fn() -> bool,
     ) -> Option<Moment<'p>> {
-        let scan = self.end_of(step)?.scan;
+        self.simulation.as_ref()?;
         moment(&scenario.reading.scenario, subject(pair), scan, wanted)
     }
 
@@ -224,6 +232,14 @@ mod tests {
             ["V2: the ladder does not know V2"]
         );
         assert_eq!(said("", "", "on s => off v1\n"), [""; 0]);
+    }
+
+    #[test]
+    fn a_scan_belongs_to_the_step_that_it_was_done_in() {
+        let run = Tank::new(LADDER, SPEC, SCENARIO).run();
+        let steps = [0, 1, 2, 3, 4, 5, 6].map(|scan| run.step_of(scan));
+        let wanted = [None, Some(0), Some(1), Some(1), Some(1), Some(2), None];
+        assert_eq!(steps, wanted);
     }
 
     #[test]

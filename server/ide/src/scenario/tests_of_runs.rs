@@ -63,9 +63,9 @@ impl Tank {
     /// What is in the tank after a step.
     #[track_caller]
     pub(crate) fn moment(&self, step: usize) -> Moment<'_> {
-        let moment = self
-            .run()
-            .moment(&self.scenario, self.pair(), step, &|| true);
+        let run = self.run();
+        let scan = run.end_of(step).expect("a step that was done").scan;
+        let moment = run.moment(&self.scenario, self.pair(), scan, &|| true);
         moment.expect("a step that was done")
     }
 }

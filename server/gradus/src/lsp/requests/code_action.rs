@@ -91,9 +91,7 @@ pub fn answer(
         Text::Spec(spec) => actions_in_spec(spec, both.ladder, asked),
         Text::Scenario(scenario) => {
             let (_, run) = query.run()?;
-            let chosen = query.world.chosen.as_ref();
-            let chosen = chosen.filter(|it| it.scenario == query.document.key);
-            actions_in_scenario(scenario, &run, chosen.map(|it| it.step), asked)
+            actions_in_scenario(scenario, &run, query.chosen_step(&run), asked)
         }
     };
     let shows_pages = query.world.abilities.pages;

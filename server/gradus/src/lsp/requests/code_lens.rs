@@ -54,9 +54,7 @@ const MOST_SCENARIOS: usize = 8;
 fn of_scenario(query: &Query, scenario: &Scenario) -> Option<Vec<CodeLens>> {
     let (plant, run) = query.run()?;
     let uri = &query.document.uri;
-    let chosen = query.world.chosen.as_ref();
-    let chosen = chosen.filter(|it| it.scenario == query.document.key);
-    let chosen = chosen.map(|it| it.step);
+    let chosen = query.chosen_step(&run);
     let lenses = ide::lenses_in_scenario(scenario, plant.run_on(), &run, chosen);
     let lenses = lenses.into_iter().map(|it| {
         let line = query.range(it.span).start.line;

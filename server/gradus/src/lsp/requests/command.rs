@@ -8,7 +8,7 @@
 //! | `gradus.ladderText` | `{ "uri" }` | the ladder in rung notation |
 //! | `gradus.conditions` | `{ "uri" }` | the conditions of all coils |
 //! | `gradus.simulate` | `{ "uri" }` | the scans of a scenario |
-//! | `gradus.showScan` | `{ "uri", "line" }` | shows a scan in ladder and spec |
+//! | `gradus.showScan` | `{ "uri", "line" or "scan" }` | shows a scan in ladder and spec |
 //! | `gradus.hideScan` | | shows it no more |
 //! | `gradus.explain` | a code | its page |
 //! | `gradus.report` | | what to tell about a fault |
@@ -21,7 +21,7 @@ use tower_lsp::jsonrpc::{Error, Result};
 use tower_lsp::ls_types::{ExecuteCommandParams, Uri, WorkspaceEdit};
 
 use super::code_action::put;
-use super::simulate::{HIDE_SCAN, SHOW_SCAN, SIMULATE};
+use super::simulate::{HIDE_SCAN, SHOW_SCAN, SIMULATE, Wanted};
 use crate::lsp::edit::Changes;
 use crate::lsp::log::Log;
 use crate::lsp::query::Query;
@@ -55,9 +55,8 @@ pub enum Command {
     Ladder(Uri, LadderCommand),
     /// Show the scans of the scenario at an address.
     Simulate(Uri),
-    /// Show, in ladder and spec, the scan that ends the step in a line of the
-    /// scenario at an address.
-    ShowScan(Uri, u32),
+    /// Show, in ladder and spec, a scan of the scenario at an address.
+    ShowScan(Uri, Wanted),
     /// Show no scan any more.
     HideScan,
     /// The page of a code.
@@ -83,6 +82,7 @@ struct Argument {
     uri: Uri,
     accept: Option<Word>,
     line: Option<u32>,
+    scan: Option<u64>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -118,9 +118,11 @@ pub fn read(params: ExecuteCommandParams) -> Result<Command> {
         SIMULATE => return Ok(Command::Simulate(argument()?.uri)),
         SHOW_SCAN => {
             let argument = argument()?;
-            let line = argument.line;
-            let line = line.ok_or_else(|| wrong("missing field `line`".to_owned()))?;
-            return Ok(Command::ShowScan(argument.uri, line));
+            let number = argument.scan.map(Wanted::Number);
+            let wanted = number.or(argument.line.map(Wanted::EndOfLine));
+            let wanted =
+                wanted.ok_or_else(|| wrong("missing field `line` or `scan`".to_owned()))?;
+            return Ok(Command::ShowScan(argument.uri, wanted));
         }
         "gradus.convert" => {
             let argument = argument()?;

@@ -28,7 +28,8 @@ fn of_chosen_scan(query: &Query, span: Span) -> Option<Vec<Hint>> {
     let run = query.world.runs.run(&document, scenario, &plant);
     let wanted = || !query.budget.cancel.is_cancelled() && !query.document.is_outdated();
     let pair = plant.run_on();
-    let moment = run.moment(scenario, pair, chosen.step, &wanted)?;
+    let (_, scan) = chosen.scan.in_run(&run)?;
+    let moment = run.moment(scenario, pair, scan, &wanted)?;
     match in_ladder {
         true => Some(ide::powered_in_ladder(pair.ladder?, &moment, span)),
         false => Some(ide::situation_in_spec(pair.spec?, &moment, span)),

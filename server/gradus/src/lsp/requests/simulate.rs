@@ -6,7 +6,7 @@ use tower_lsp::ls_types::Position;
 
 use crate::lsp::query::Query;
 use crate::lsp::simulation;
-use crate::lsp::world::Chosen;
+use crate::lsp::world::{Chosen, Scan};
 
 /// Shows the scans of a scenario.
 pub const SIMULATE: &str = "gradus.simulate";
@@ -30,20 +30,33 @@ pub fn table(query: &Query) -> Option<Value> {
     }))
 }
 
-/// The scan that ends the step in a line, and what the client is told of it.
-/// `None` if there is no step, or it was not run.
-pub fn scan(query: &Query, line: u32) -> Option<(Chosen, Value)> {
+/// Which scan of a scenario is to be shown.
+#[derive(Clone, Copy, Debug)]
+pub enum Wanted {
+    /// The one that ends the step in a line, from 0.
+    EndOfLine(u32),
+    /// The one of this number, from 1.
+    Number(u64),
+}
+
+/// A scan, and what the client is told of it. `None` if there is no such scan, or
+/// it was not run.
+pub fn scan(query: &Query, wanted: Wanted) -> Option<(Chosen, Value)> {
     let scenario = query.scenario()?;
     let (_, run) = query.run()?;
-    let step = scenario.step_at(query.offset(Position::new(line, 0)))?;
-    let row = run.end_of(step)?;
+    let scan = match wanted {
+        Wanted::EndOfLine(line) => {
+            Scan::EndOf(scenario.step_at(query.offset(Position::new(line, 0)))?)
+        }
+        Wanted::Number(number) => Scan::Number(number),
+    };
+    let (step, number) = scan.in_run(&run)?;
     let chosen = Chosen {
         scenario: query.document.key.clone(),
-        step,
+        scan,
     };
     let answer = json!({
-        "scan": row.scan,
-        "time": row.time_ms,
+        "scan": number,
         "step": step,
         "done": scenario::done(scenario.steps().get(step)?),
     });
