@@ -1,4 +1,4 @@
-use end_to_end::lsp::{Client, Profile};
+use end_to_end::lsp::{Client, Profile, Refused};
 use serde_json::{Value, json};
 use tower_lsp::ls_types::ExecuteCommandParams;
 use tower_lsp::ls_types::request::ExecuteCommand;
@@ -7,13 +7,18 @@ use crate::{client, client_like};
 
 const LADDER: &str = "fixtures/neutralization/neutralization.ladder";
 
-fn run(client: &mut Client, command: &str, argument: Value) -> Value {
-    let params = ExecuteCommandParams {
+/// What a command answers, or why it is refused.
+pub fn ask(client: &mut Client, command: &str, argument: Value) -> Result<Option<Value>, Refused> {
+    client.ask::<ExecuteCommand>(ExecuteCommandParams {
         command: command.to_owned(),
         arguments: vec![argument],
         work_done_progress_params: Default::default(),
-    };
-    client.request::<ExecuteCommand>(params).expect("an answer")
+    })
+}
+
+fn run(client: &mut Client, command: &str, argument: Value) -> Value {
+    let answer = ask(client, command, argument).expect("no refusal");
+    answer.expect("an answer")
 }
 
 #[test]
@@ -106,12 +111,7 @@ fn what_makes_no_sense_is_refused_with_a_reason() {
             "gradus.convert: missing field `uri`",
         ),
     ] {
-        let params = ExecuteCommandParams {
-            command: command.to_owned(),
-            arguments: vec![argument],
-            work_done_progress_params: Default::default(),
-        };
-        let refused = client.ask::<ExecuteCommand>(params).expect_err("refused");
+        let refused = ask(&mut client, command, argument).expect_err("refused");
         assert_eq!((refused.code, &*refused.message), (-32602, reason));
     }
 }

@@ -1,7 +1,7 @@
 use end_to_end::lsp::{Client, Marked, Profile};
 use serde_json::json;
 use tower_lsp::ls_types::request::HoverRequest;
-use tower_lsp::ls_types::{HoverContents, HoverParams, MarkupKind};
+use tower_lsp::ls_types::{HoverContents, HoverParams, MarkupKind, TextDocumentPositionParams};
 
 use crate::{client, client_like};
 
@@ -220,8 +220,14 @@ fn shown_at(client: &mut Client, name: &str, what: &str) -> String {
         text,
         cursors: vec![at],
     };
+    let at = client.at(name, marked.position(0, true));
+    markup_at(client, at)
+}
+
+/// What is shown at a place.
+pub fn markup_at(client: &mut Client, at: TextDocumentPositionParams) -> String {
     let params = HoverParams {
-        text_document_position_params: client.at(name, marked.position(0, true)),
+        text_document_position_params: at,
         work_done_progress_params: Default::default(),
     };
     let hover = client.request::<HoverRequest>(params).expect("a hover");

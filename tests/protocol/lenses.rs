@@ -13,7 +13,8 @@ rung: (s + v1) * /ls2 -> v1
 rung: (ls2 + v2) * s -> v2
 ";
 
-fn lenses(client: &mut Client, name: &str) -> Vec<(u32, String)> {
+/// The lenses of a document, with their lines.
+pub fn lenses(client: &mut Client, name: &str) -> Vec<(u32, String)> {
     let params = CodeLensParams {
         text_document: TextDocumentIdentifier {
             uri: client.uri(name),
@@ -31,7 +32,8 @@ fn lenses(client: &mut Client, name: &str) -> Vec<(u32, String)> {
     said.collect()
 }
 
-fn hints(client: &mut Client, name: &str) -> Vec<(Position, String)> {
+/// The hints of a document, with their places.
+pub fn hints(client: &mut Client, name: &str) -> Vec<(Position, String)> {
     let params = InlayHintParams {
         text_document: TextDocumentIdentifier {
             uri: client.uri(name),

@@ -7,7 +7,7 @@ use tower_lsp::ls_types::{DocumentLinkParams, TextDocumentIdentifier};
 use crate::client;
 
 /// `text -> file (tooltip)`.
-fn links(client: &mut Client, name: &str) -> Option<Vec<String>> {
+pub fn links(client: &mut Client, name: &str) -> Option<Vec<String>> {
     let params = DocumentLinkParams {
         text_document: TextDocumentIdentifier {
             uri: client.uri(name),

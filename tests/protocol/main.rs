@@ -22,6 +22,7 @@ mod profiles;
 mod progress;
 mod raw;
 mod rename;
+mod scenarios;
 mod selection;
 mod settings;
 mod signature_help;

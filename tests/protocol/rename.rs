@@ -45,7 +45,7 @@ fn edits(client: &Client, edit: &WorkspaceEdit, name: &str) -> Vec<TextEdit> {
 }
 
 /// A document after an edit.
-fn after(client: &Client, edit: &WorkspaceEdit, name: &str) -> String {
+pub fn after(client: &Client, edit: &WorkspaceEdit, name: &str) -> String {
     client.edited(name, &edits(client, edit, name))
 }
 

@@ -21,6 +21,9 @@ for name, call in pairs({
   spec = 'spec',
   ladder = 'ladder',
   conditions = 'conditions',
+  simulate = 'simulate',
+  scan = 'scan',
+  ['scan-off'] = 'scan off',
   explain = 'explain',
 }) do
   vim.keymap.set('n', '<Plug>(gradus-' .. name .. ')', '<Cmd>Gradus ' .. call .. '<CR>')

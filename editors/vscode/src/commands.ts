@@ -15,6 +15,7 @@ import {
   workspace,
 } from "vscode";
 import type { LanguageClient } from "vscode-languageclient/node";
+import { scenarioLanguage } from "./ladder-file";
 import { type Conversion, execute, type Spec, type Text } from "./protocol";
 import { type Server, showBeside, showPage } from "./server";
 import type { Verdicts } from "./verdicts";
@@ -43,12 +44,28 @@ export function registerCommands(
     "gradus.file.openSpec": onLadder(openSpec),
     "gradus.file.ladderText": onLadder((_, ladder) => showBeside(rungsOf(ladder), true)),
     "gradus.file.conditions": onLadder((_, ladder) => showBeside(conditionsOf(ladder), true)),
+    "gradus.file.simulate": () => onScenario(server, "gradus.simulate"),
+    "gradus.file.showScan": () => onScenario(server, "gradus.showScan"),
+    "gradus.file.hideScan": () => commands.executeCommand("gradus.hideScan", {}),
     "gradus.server.restart": () => server.restart(),
     "gradus.server.report": () => report(context, server),
     "gradus.server.log": showLog,
     "gradus.example": () => saveExample(context),
     [pageCommand]: (name: string) => showPage(pageOf(name)),
   }).map(([name, run]) => commands.registerCommand(name, run));
+}
+
+/** Has the server run a command about the scenario in front, at the cursor's line; what it answers is shown where all answers are. */
+async function onScenario(server: Server, command: string): Promise<void> {
+  const editor = window.activeTextEditor;
+  if (editor?.document.languageId !== scenarioLanguage) {
+    window.setStatusBarMessage("Gradus: the file in front is no scenario", 5000);
+    return;
+  }
+  const client = await server.running();
+  if (client === undefined) return;
+  const uri = client.code2ProtocolConverter.asUri(editor.document.uri);
+  await commands.executeCommand(command, { uri, line: editor.selection.active.line });
 }
 
 async function convert(client: LanguageClient, command: string, ladder: Uri): Promise<void> {

@@ -4,7 +4,7 @@
  */
 import { commands, type ExtensionContext, window, workspace } from "vscode";
 import { registerCommands } from "./commands";
-import { concernsGradus } from "./ladder-file";
+import { concernsGradus, scenarioLanguage } from "./ladder-file";
 import { statusNotification } from "./protocol";
 import { Server, showBeside } from "./server";
 import { Verdicts } from "./verdicts";
@@ -47,6 +47,9 @@ export function activate(context: ExtensionContext): void {
     ...registerCommands(context, running, verdicts, () => log.show()),
     workspace.onDidOpenTextDocument((document) => startFor([document])),
     window.onDidChangeActiveTextEditor(lookAtFront),
+    workspace.onDidChangeTextDocument(({ document }) => {
+      if (document.languageId === scenarioLanguage) texts.scenarioChanged(document.uri);
+    }),
     workspace.onDidCreateFiles(({ files }) => {
       // The first decision about a ladder makes its spec, which then grows in view. The cursor stays.
       const made = files.find((file) => verdicts.isSpecInView(file));

@@ -6,7 +6,8 @@
 import { Range, type TextDocument } from "vscode";
 
 export const specLanguage = "grafcet";
-export const ownLanguages = ["gradus-ladder", specLanguage, "gradus-scenario", "neutral-text"] as const;
+export const scenarioLanguage = "gradus-scenario";
+export const ownLanguages = ["gradus-ladder", specLanguage, scenarioLanguage, "neutral-text"] as const;
 const ladderLanguages = ["gradus-ladder", "neutral-text"] as const;
 export const xmlLanguages = ["xml", "l5x"] as const;
 

@@ -38,6 +38,20 @@ export interface Spec {
   readonly exists: boolean;
 }
 
+/** What `gradus.simulate` answers. */
+export interface Simulated extends Text {
+  /** Where the server shows it, kept up to date. */
+  readonly uri: string;
+  readonly summary: string;
+  readonly passed: boolean;
+}
+
+/** What `gradus.showScan` answers: the scan that is shown, and what was done before it. */
+export interface Scan {
+  readonly scan: number;
+  readonly done: string;
+}
+
 /** A text that the server wrote for people. */
 export interface Text {
   readonly title: string;

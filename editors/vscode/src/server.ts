@@ -30,8 +30,8 @@ import {
 } from "vscode-languageclient/node";
 import { findExecutable } from "./executable";
 import { ownLanguages, schemes, xmlLanguages } from "./ladder-file";
-import { furtherCapabilities } from "./protocol";
-import { pageOf, withPages } from "./virtual-documents";
+import { furtherCapabilities, type Scan, type Simulated } from "./protocol";
+import { pageOf, scansOf, withPages } from "./virtual-documents";
 
 /** How often a server that has died is started anew within so many milliseconds. */
 const restarts = 4;
@@ -146,6 +146,7 @@ export class Server {
         executeCommand: async (command, args, next) => {
           const answer: unknown = await next(command, args);
           if (command === "gradus.explain" && typeof args[0] === "string") await showPage(pageOf(args[0]));
+          await showRun(command, args[0], answer);
           return answer;
         },
         provideHover: async (document, position, token, next) => {
@@ -219,6 +220,21 @@ export class Server {
         break;
       default:
     }
+  }
+}
+
+/** Shows what came of a command about a scenario, whether a lens, an action or the palette had it run. */
+async function showRun(command: string, argument: unknown, answer: unknown): Promise<void> {
+  if (command === "gradus.simulate" && answer) {
+    const { uri } = argument as { readonly uri: string };
+    await showBeside(scansOf(Uri.parse(uri, true)), false);
+    window.setStatusBarMessage(`Gradus: ${(answer as Simulated).summary}`, 10_000);
+  } else if (command === "gradus.showScan" && answer) {
+    const { scan, done } = answer as Scan;
+    await commands.executeCommand("setContext", "gradus.showsScan", true);
+    window.setStatusBarMessage(`Gradus: scan ${scan} is shown, after ${done}`, 10_000);
+  } else if (command === "gradus.hideScan") {
+    await commands.executeCommand("setContext", "gradus.showsScan", false);
   }
 }
 

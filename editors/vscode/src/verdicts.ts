@@ -4,7 +4,7 @@
  */
 import { MarkdownString, StatusBarAlignment, type TextDocument, Uri, window, workspace } from "vscode";
 import { State } from "vscode-languageclient/node";
-import { concernsGradus, holdsLadder, specLanguage } from "./ladder-file";
+import { concernsGradus, holdsLadder, scenarioLanguage, specLanguage } from "./ladder-file";
 import type { Status, Verdict } from "./protocol";
 
 const faces: Record<Verdict, { readonly icon: string; readonly words: string }> = {
@@ -76,6 +76,11 @@ export class Verdicts {
       return;
     }
     const status = this.#ofStem.get(stem(document.uri));
+    // Of a scenario its lens tells; here is told of a ladder of its name, if there is one.
+    if (status === undefined && document.languageId === scenarioLanguage && this.#state === State.Running) {
+      this.#item.hide();
+      return;
+    }
     if (this.#state === State.Starting || this.#state === State.StartFailed || this.#state === State.Stopped) {
       const starting = this.#state === State.Starting;
       this.#item.text = starting ? "$(loading~spin) Gradus" : "$(debug-disconnect) Gradus";

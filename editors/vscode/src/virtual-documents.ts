@@ -1,6 +1,6 @@
 /**
  * Documents that the server makes from a file: its rungs as text, the conditions of its
- * coils, the page of a finding's code or of a word. Their address names the file they are made from,
+ * coils, the scans of a scenario, the page of a finding's code or of a word. Their address names the file they are made from,
  * so they can be asked for again at any time, and are, after each analysis of it.
  */
 import {
@@ -14,7 +14,8 @@ import {
 } from "vscode";
 import type { Server } from "./server";
 
-const schemes = ["gradus-ladder", "gradus-conditions", "gradus-explain"] as const;
+const ofScans = "gradus-simulation";
+const schemes = ["gradus-ladder", "gradus-conditions", ofScans, "gradus-explain"] as const;
 
 /** The rungs of a ladder in the project's notation. */
 export function rungsOf(ladder: Uri): Uri {
@@ -24,6 +25,11 @@ export function rungsOf(ladder: Uri): Uri {
 /** The conditions of all coils of a ladder. */
 export function conditionsOf(ladder: Uri): Uri {
   return Uri.from({ scheme: "gradus-conditions", path: `${ladder.path}.txt`, query: ladder.toString() });
+}
+
+/** The scans of a scenario. */
+export function scansOf(scenario: Uri): Uri {
+  return Uri.from({ scheme: ofScans, path: `${scenario.path}.txt`, query: scenario.toString() });
 }
 
 /** The page of a finding's code, or of a word that hovers use. */
@@ -70,15 +76,20 @@ export class VirtualDocuments implements TextDocumentContentProvider {
     return answer?.text;
   }
 
-  /** Asks again for what is open and made from that ladder. */
+  /** Asks again for what is open and made from that ladder, and for all scans, which may be its own. */
   ladderChanged(ladder: string): void {
+    const own = Uri.parse(ladder).toString();
+    this.#again((uri) => uri.scheme === ofScans || Uri.parse(uri.query).toString() === own);
+  }
+
+  /** Asks again for the scans of a scenario. */
+  scenarioChanged(scenario: Uri): void {
+    this.#again((uri) => uri.scheme === ofScans && Uri.parse(uri.query).toString() === scenario.toString());
+  }
+
+  #again(wanted: (uri: Uri) => boolean): void {
     for (const { uri } of workspace.textDocuments) {
-      if (
-        schemes.some((scheme) => scheme === uri.scheme) &&
-        Uri.parse(uri.query).toString() === Uri.parse(ladder).toString()
-      ) {
-        this.#changed.fire(uri);
-      }
+      if (schemes.some((scheme) => scheme === uri.scheme) && wanted(uri)) this.#changed.fire(uri);
     }
   }
 }

@@ -124,6 +124,32 @@ fn ends_with_one_of(path: &Path, endings: &[&str]) -> bool {
     })
 }
 
+/// The only ladder in the folder of `path`, if there is just one: what `read`
+/// makes of the first file that it takes for a ladder. Files that differ by
+/// their endings only are one ladder in several forms.
+pub fn only_ladder<T>(path: &Path, read: impl Fn(&Path) -> Option<T>) -> Option<T> {
+    let folder = match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    };
+    let entries = fs::read_dir(folder).ok()?.flatten();
+    let mut files: Vec<PathBuf> = entries
+        .map(|entry| entry.path())
+        .filter(|path| ends_with_one_of(path, LADDER_ENDINGS))
+        .collect();
+    files.sort_by_key(|path| (path.file_stem().map(ToOwned::to_owned), ending(path)));
+    let mut found: Option<(&Path, T)> = None;
+    for path in &files {
+        match &found {
+            Some((first, _)) if first.file_stem() == path.file_stem() => {}
+            Some(_) if read(path).is_some() => return None,
+            Some(_) => {}
+            None => found = read(path).map(|it| (path.as_path(), it)),
+        }
+    }
+    found.map(|(_, it)| it)
+}
+
 /// Whether a file of this name may be anything: only the endings `.xml` and
 /// `.txt` are shared with the rest of the world.
 pub fn may_be_anything(path: &Path) -> bool {

@@ -13,6 +13,7 @@ use source::{Diagnostic, Span, codes};
 
 use crate::command::check::against::beside;
 use crate::file;
+use crate::input;
 use crate::io::is_standard_input;
 use ide::language;
 
@@ -72,6 +73,24 @@ impl Plant {
         }
     }
 
+    /// Adds the only ladder in the folder of `path`, with the spec beside it.
+    fn add_only_ladder(&mut self, path: &Path) {
+        let ladder = input::only_ladder(path, |path| {
+            let mut plant = Self::default();
+            plant.add(path, &file::read(path).ok()?).ok()?;
+            plant.ladder
+        });
+        let Some(ladder) = ladder else {
+            return;
+        };
+        let spec = ladder.0.with_extension("grafcet");
+        self.ladder = Some(ladder);
+        if let Ok(bytes) = file::read(&spec) {
+            // What is no spec is no part.
+            let _ = self.add(&spec, &bytes);
+        }
+    }
+
     /// The files of the plant as a scenario at `path` names them: those that lie
     /// in its folder.
     pub fn files_seen_from(&self, path: &Path) -> Vec<FileName> {
@@ -88,7 +107,8 @@ impl Plant {
     }
 
     /// What the scenario at `path` runs on: what it names, and what is wrong
-    /// with that; if it names nothing, what lies beside it.
+    /// with that; if it names nothing, what lies beside it, or else the only
+    /// ladder in its folder with its spec.
     pub fn of(path: &Path, scenario: &Scenario) -> (Self, Vec<Diagnostic>) {
         let mut plant = Self::default();
         let mut found = Vec::new();
@@ -98,6 +118,9 @@ impl Plant {
                     // A second one of a kind has an ending that counts less.
                     let _ = plant.add(&other, &bytes);
                 }
+            }
+            if plant.is_empty() && !is_standard_input(path) {
+                plant.add_only_ladder(path);
             }
         }
         let folder = path.parent().unwrap_or(Path::new(""));
@@ -126,7 +149,8 @@ impl Misfit {
     }
 }
 
-fn unreadable(name: &str, span: Span, trouble: &str) -> Diagnostic {
+/// A file that a scenario names and that cannot be a part of what it runs on.
+pub fn unreadable(name: &str, span: Span, trouble: &str) -> Diagnostic {
     let message = format!("{name}: {trouble}");
     Diagnostic::new(codes::FILE_UNREADABLE, span, message)
         .help("the path is seen from the folder of the scenario")

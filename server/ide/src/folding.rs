@@ -5,7 +5,7 @@ use std::cmp::Reverse;
 use ::ladder::Format;
 use source::Span;
 
-use crate::{Ladder, Spec};
+use crate::{Ladder, Scenario, Spec};
 
 /// A stretch that can be folded to its first line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -49,6 +49,15 @@ pub fn folds_in_spec(spec: &Spec) -> Vec<Fold> {
     let comments = runs(&spec.text, is_comment).map(comment);
     let folds = sections.chain(rules).chain(decisions).map(code);
     several_lines(folds.chain(comments).collect(), &spec.text)
+}
+
+/// Stretches of lines without a blank one or a comment between, and comments.
+pub fn folds_in_scenario(scenario: &Scenario) -> Vec<Fold> {
+    let is_comment = |line: &str| line.starts_with("//");
+    let says = |line: &str| !line.trim().is_empty() && !line.starts_with("//");
+    let steps = runs(&scenario.text, says).map(code);
+    let comments = runs(&scenario.text, is_comment).map(comment);
+    several_lines(steps.chain(comments).collect(), &scenario.text)
 }
 
 fn code(span: Span) -> Fold {
@@ -193,6 +202,16 @@ rung: a -> b
     #[test]
     fn what_takes_one_line_does_not_fold() {
         assert_eq!(in_ladder("// one\nrung: a -> b"), [""; 0]);
+    }
+
+    #[test]
+    fn steps_without_a_line_between_fold() {
+        let text = "// of\n// a tank\nfor a.ladder\n\non s\nscan\n// then\non b\nscan\n";
+        let scenario = Scenario::read(text.into());
+        assert_eq!(
+            lines(text, &folds_in_scenario(&scenario)),
+            ["1..2 //", "5..6", "8..9"]
+        );
     }
 
     #[test]

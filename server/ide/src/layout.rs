@@ -9,7 +9,7 @@ use logic::notation::{Token, TokenKind};
 use source::{Edit, Span};
 
 use crate::changed::narrowed;
-use crate::{Ladder, Spec, changed, statement};
+use crate::{Ladder, Scenario, Spec, changed, statement};
 
 /// What is laid out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,6 +39,13 @@ pub fn lay_out_ladder(ladder: &Ladder, extent: Extent) -> Option<Vec<Edit>> {
 pub fn lay_out_spec(spec: &Spec, extent: Extent) -> Vec<Edit> {
     let laid = grafcet::format(&spec.text);
     within(&spec.text, &laid.text, extent, statement::in_spec)
+}
+
+/// The edits that lay a scenario out; lines that are not understood stay as they
+/// are.
+pub fn lay_out_scenario(scenario: &Scenario, extent: Extent) -> Vec<Edit> {
+    let laid = ::scenario::format(&scenario.text);
+    within(&scenario.text, &laid.text, extent, statement::line)
 }
 
 fn within(
@@ -202,6 +209,19 @@ mod tests {
         let at = text.find("b->c").expect("in the text");
         assert_eq!(lay_out(text, Extent::Line(at)), "rung: a*\n  b -> c\n");
         assert_eq!(lay_out(text, Extent::Whole), "rung: a * b -> c\n");
+    }
+
+    #[test]
+    fn a_scenario_is_laid_out_step_by_step() {
+        let text = "on s=>on v1\r\n\r\n\r\n?\r\non  ls2 ,off s=> only\r\n";
+        let laid = "on s => on v1\r\n\r\n?\r\non ls2, off s => only\r\n";
+        let scenario = Scenario::read(text.into());
+        assert_eq!(
+            edited(text, &lay_out_scenario(&scenario, Extent::Whole)),
+            laid
+        );
+        let first = lay_out_scenario(&scenario, Extent::Line(3));
+        assert_eq!(edited(text, &first), text.replace("s=>on", "s => on"));
     }
 
     #[test]

@@ -2,8 +2,8 @@
 //!
 //! Every command and every editor asks here, so that they say the same. An
 //! answer holds names, texts and places in bytes; it knows no protocol, no
-//! terminal and no file. What is looked at is a [`Ladder`] and the [`Spec`]
-//! beside it. One thing to be shown is one file with one entry:
+//! terminal and no file. What is looked at is a [`Ladder`], the [`Spec`] beside
+//! it, and scenarios that run on them. One thing to be shown is one file with one entry:
 //!
 //! * [`coils`]: every coil with all that is known of it, in words;
 //! * [`said`] and [`legible`]: a condition in the notation, past a size that a
@@ -20,6 +20,8 @@
 //!   [`Term`]s it uses, each with its page;
 //! * [`hierarchy`]: which step follows which;
 //! * [`tokens`]: what each name is, for colouring;
+//! * [`Scenario`] and [`Run`]: a scenario, and what comes of it on a ladder and a
+//!   spec, said as findings, lenses, hints and hovers.
 
 mod actions;
 mod change;
@@ -45,6 +47,7 @@ pub mod navigate;
 mod next;
 mod rename;
 mod routine;
+mod scenario;
 mod section;
 mod selection;
 mod signature;
@@ -54,30 +57,40 @@ pub mod symbols;
 mod term;
 pub mod tokens;
 
-pub use actions::{Action, ActionKind, Asked, Effect, actions_in_ladder, actions_in_spec};
+pub use actions::{
+    Action, ActionKind, Asked, Effect, actions_in_ladder, actions_in_scenario, actions_in_spec,
+};
 pub use change::{Change, Departing, changed_spec};
 pub use changed::{changed, edited};
 pub use coil::{Coil, Drawn, Part, Said, coil, coils, kind_word};
 pub use completion::{
-    Completion, CompletionKind, Completions, complete_in_ladder, complete_in_spec,
+    Completion, CompletionKind, Completions, complete_in_ladder, complete_in_scenario,
+    complete_in_spec,
 };
 pub use condition::{broken, legible, said};
 pub use decided::{Decided, Standing};
-pub use folding::{Fold, folds_in_ladder, folds_in_spec};
+pub use folding::{Fold, folds_in_ladder, folds_in_scenario, folds_in_spec};
 pub use hints::{Hint, hints_in_ladder, hints_in_spec};
-pub use hover::{Block, Hover, Rungs, Target, hover_in_ladder, hover_in_spec, hover_of_variable};
+pub use hover::{
+    Block, Hover, RunOn, Rungs, Target, hover_in_ladder, hover_in_scenario, hover_in_spec,
+    hover_of_variable,
+};
 pub use ladder::Ladder;
-pub use layout::{Extent, lay_out_ladder, lay_out_spec};
+pub use layout::{Extent, lay_out_ladder, lay_out_scenario, lay_out_spec};
 pub use lenses::{Count, Lens, count, lenses_in_ladder, lenses_in_spec};
-pub use link::{link_in_ladder, link_in_spec};
+pub use link::{link_in_ladder, link_in_spec, links_in_scenario, namings_of};
 pub use merged::merged_spec;
 pub use names::{Mention, Names, Usage, element};
 pub use next::{Next, NextKind, next, next_at};
 pub use rename::{
-    Refusal, Renamable, Renaming, renamable_in_ladder, renamable_in_spec, rename_in_ladder,
-    rename_in_spec,
+    Refusal, Renamable, Renaming, edits_in_scenario, renamable_in_ladder, renamable_in_scenario,
+    renamable_in_spec, rename_in_ladder, rename_in_scenario, rename_in_spec,
 };
-pub use selection::{selections_in_ladder, selections_in_spec};
+pub use scenario::{
+    Finding, Run, Scenario, ScenarioLens, Shows, StepName, hints_in_scenario, is_meant,
+    lenses_in_scenario, meaning, powered_in_ladder, situation_in_spec, subject, tokens_in_scenario,
+};
+pub use selection::{selections_in_ladder, selections_in_scenario, selections_in_spec};
 pub use signature::{Signature, signature};
 pub use spec::Spec;
 pub use term::Term;

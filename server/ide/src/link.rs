@@ -4,7 +4,7 @@ use ::ladder::{Format, Role as RoutineRole};
 use grafcet::Role;
 use source::Span;
 
-use crate::{Ladder, Spec};
+use crate::{Ladder, Scenario, Spec};
 
 /// The bytes of a ladder that stand for its spec: the program's name, else the
 /// first routine's, else how the text begins: a comment, or a word of the
@@ -59,6 +59,25 @@ pub fn link_in_spec(spec: &Spec) -> Option<Span> {
     Some(Span::new(start, start + line.len()))
 }
 
+/// The bytes of a scenario that stand for files: each name behind `for`.
+pub fn links_in_scenario(scenario: &Scenario) -> impl Iterator<Item = (Span, &str)> {
+    let files = scenario.reading.scenario.files.iter();
+    files.map(|file| (file.span, &*file.path))
+}
+
+/// Where a text, of whatever kind, names the file called `name`: in comments,
+/// since nothing else of it speaks of files.
+pub fn namings_of<'t>(text: &'t str, name: &'t str) -> impl Iterator<Item = Span> + 't {
+    let is_part = |c: char| c.is_alphanumeric() || "_-.".contains(c);
+    let places = text.match_indices(name);
+    places.filter_map(move |(at, _)| {
+        let end = at + name.len();
+        let goes_on = text[end..].trim_start_matches('.').starts_with(is_part);
+        let is_whole = !text[..at].ends_with(is_part) && !goes_on && !name.is_empty();
+        is_whole.then(|| Span::new(at, end))
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use logic::Budget;
@@ -109,5 +128,29 @@ mod tests {
         assert_eq!(linked("// of\nGrafcet Tank\nStep X0"), Some("Tank"));
         assert_eq!(linked("\u{feff}\r\n  Step X0 \r\nStep X1"), Some("Step X0"));
         assert_eq!(linked(" \n"), None);
+    }
+
+    #[test]
+    fn a_scenario_is_linked_where_it_names_files() {
+        let text = "scenario \"x\"\nfor tank.ladder, \"a b.grafcet\"\non s\n";
+        let scenario = Scenario::read(text.into());
+        let links: Vec<_> = links_in_scenario(&scenario)
+            .map(|(span, path)| (&text[span.range()], path))
+            .collect();
+        assert_eq!(
+            links,
+            [
+                ("tank.ladder", "tank.ladder"),
+                ("\"a b.grafcet\"", "a b.grafcet")
+            ]
+        );
+    }
+
+    #[test]
+    fn a_file_is_named_by_its_whole_name() {
+        let text = "// fill.scenario, see refill.scenario\n// and fill.scenario.\n";
+        let at = namings_of(text, "fill.scenario").map(|it| it.start);
+        assert_eq!(at.collect::<Vec<_>>(), [3, 45]);
+        assert_eq!(namings_of(text, "").count(), 0);
     }
 }

@@ -1,12 +1,14 @@
 //! What a growing selection takes, step by step: a name, its contact, the
 //! branch that this stands in, the rung, the routine.
 
+use std::ops::Range;
+
 use ::ladder::text::branches as branches_of;
 use ::ladder::{Element, Format, Rung};
 use logic::notation::{Lexer, TokenKind};
 use source::Span;
 
-use crate::{Ladder, Spec};
+use crate::{Ladder, Scenario, Spec, folds_in_scenario};
 
 /// The stretches around the byte `offset` of a ladder, each inside the next.
 pub fn selections_in_ladder(ladder: &Ladder, offset: usize) -> Vec<Span> {
@@ -61,6 +63,42 @@ pub fn selections_in_spec(spec: &Spec, offset: usize) -> Vec<Span> {
             spans.push(rule.span);
         }
         None => spans.extend(line(&spec.text, offset)),
+    }
+    chain(spans, offset)
+}
+
+/// The stretches around the byte `offset` of a scenario, each inside the next: a
+/// name, what is done or expected of it, all that is, the step, the steps around
+/// it.
+pub fn selections_in_scenario(scenario: &Scenario, offset: usize) -> Vec<Span> {
+    let text = &*scenario.text;
+    let mut spans = vec![Span::new(0, text.len())];
+    spans.extend(scenario.name_at(offset).map(|it| it.span));
+    spans.extend(line(text, offset));
+    spans.extend(folds_in_scenario(scenario).iter().map(|it| it.span));
+    if let Some(step) = scenario
+        .step_at(offset)
+        .and_then(|at| scenario.steps().get(at))
+    {
+        spans.push(step.span);
+        let said = text.get(step.span.range()).unwrap_or_default();
+        let sides = branches(said, &IN_STEPS);
+        spans.extend(sides.into_iter().map(|it| moved(it, step.span)));
+        let tokens = crate::statement::code(said, 0..said.len());
+        let arrow = tokens.iter().find(|it| it.kind == TokenKind::DoubleArrow);
+        if let Some(Range {
+            start: end,
+            end: start,
+        }) = arrow.map(|it| it.span.range())
+        {
+            let trimmed = |from: usize, to: usize| {
+                let part = &said[from..to];
+                let from = from + part.len() - part.trim_start().len();
+                let to = from + part.trim().len();
+                moved(Span::new(from, to), step.span)
+            };
+            spans.extend([trimmed(0, end), trimmed(start, said.len())]);
+        }
     }
     chain(spans, offset)
 }
@@ -154,6 +192,12 @@ const IN_RULES: Signs = Signs {
     open: TokenKind::Open,
     close: TokenKind::Close,
     between: &[TokenKind::Plus, TokenKind::Yields, TokenKind::Colon],
+};
+
+const IN_STEPS: Signs = Signs {
+    open: TokenKind::Open,
+    close: TokenKind::Close,
+    between: &[TokenKind::Comma, TokenKind::DoubleArrow],
 };
 
 /// All branches in `text`, with their signs, and the members of each.
@@ -271,6 +315,24 @@ mod tests {
         assert_eq!(
             shown(&text, &selections_in_spec(&spec, offset)),
             ["X0", "Step X0 for v1", &text]
+        );
+    }
+
+    #[test]
+    fn in_a_scenario_from_a_name_to_its_step_and_those_around() {
+        let (text, offset) = cut("// x\non s, off b => on v$01, off h // y\nscan\n");
+        let scenario = Scenario::read(text.as_str().into());
+        assert_eq!(
+            shown(&text, &selections_in_scenario(&scenario, offset)),
+            [
+                "v1",
+                "on v1",
+                "on v1, off h",
+                "on s, off b => on v1, off h",
+                "on s, off b => on v1, off h // y",
+                "on s, off b => on v1, off h // y\nscan",
+                &text,
+            ]
         );
     }
 

@@ -24,7 +24,7 @@ pub(crate) fn boundary(text: &str, offset: usize) -> usize {
 }
 
 /// The lines of a text, without their ends.
-fn lines(text: &str) -> Vec<Range<usize>> {
+pub(crate) fn lines(text: &str) -> Vec<Range<usize>> {
     let mut lines = Vec::new();
     let mut start = 0;
     let mut rest = text.char_indices().peekable();

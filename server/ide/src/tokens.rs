@@ -177,7 +177,7 @@ fn plain(span: Span, kind: TokenKind, mark: Mark) -> Token {
 }
 
 /// Those that overlap no token before them.
-fn apart(mut tokens: Vec<Token>, text: &str) -> Vec<Token> {
+pub(crate) fn apart(mut tokens: Vec<Token>, text: &str) -> Vec<Token> {
     tokens.retain(|it| text.get(it.span.range()).is_some_and(|it| !it.is_empty()));
     tokens.sort_by_key(|it| it.span);
     let mut end = 0;

@@ -4,9 +4,14 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use ide::navigate::{self, Pair};
+use ide::symbols::symbols_of_scenario;
 use ide::{
-    Extent, Ladder, Spec, complete_in_ladder, complete_in_spec, edited, lay_out_ladder,
-    lay_out_spec, next_at, rename_in_ladder, rename_in_spec, signature,
+    Asked, Extent, Ladder, Run, RunOn, Scenario, Spec, actions_in_scenario, complete_in_ladder,
+    complete_in_scenario, complete_in_spec, edited, edits_in_scenario, folds_in_scenario,
+    hints_in_scenario, hover_in_scenario, lay_out_ladder, lay_out_scenario, lay_out_spec,
+    lenses_in_scenario, next_at, rename_in_ladder, rename_in_scenario, rename_in_spec,
+    selections_in_scenario, signature, tokens_in_scenario,
 };
 use logic::Budget;
 use recovery::successions::Evidence;
@@ -136,6 +141,136 @@ fn specs_answer_everywhere() {
     }
 }
 
+/// Everything that can be asked about a scenario at a place; how often something
+/// was renamed, and said the same afterwards.
+fn asked_at(scenario: &Scenario, pair: Pair<'_>, run: &Run, offset: usize) -> usize {
+    let budget = Budget::default();
+    let length = scenario.text.len();
+    if let Some(found) = complete_in_scenario(scenario, pair, &[], offset) {
+        assert!(found.span.range().end <= length);
+    }
+    let own = RunOn { run_on: pair, run };
+    if let Some(hover) = hover_in_scenario(scenario, pair, own, offset, &budget) {
+        assert!(hover.span.touches(offset));
+    }
+    let jumps = [
+        navigate::definition_in_scenario(scenario, pair, offset),
+        navigate::declaration_in_scenario(scenario, pair, offset),
+    ];
+    for jump in jumps.into_iter().flatten() {
+        assert!(jump.from.touches(offset) && !jump.to.is_empty());
+    }
+    let lit = navigate::highlights_in_scenario(scenario, pair, offset);
+    assert!(lit.is_empty() || lit.iter().any(|(span, _)| span.touches(offset)));
+    let chain = selections_in_scenario(scenario, offset);
+    for pair in chain.windows(2) {
+        assert_eq!(pair[0].cover(pair[1]), pair[1]);
+    }
+    let asked = Asked {
+        span: Span::at(offset),
+        findings: &[],
+        weakest: Evidence::Possible,
+        budget: &budget,
+    };
+    actions_in_scenario(scenario, run, None, asked);
+    lay_out_scenario(scenario, Extent::Line(offset));
+    lay_out_scenario(scenario, Extent::Statements(Span::new(offset / 2, offset)));
+    let renaming = rename_in_scenario(scenario, pair, offset, NEW, &budget);
+    let Some(Ok(renaming)) = renaming else {
+        return 0;
+    };
+    let edits = edits_in_scenario(scenario, &renaming).expect("a name that is free");
+    let new = Scenario::read(edited(&scenario.text, &edits).into());
+    assert_eq!(new.names().count(), scenario.names().count());
+    let ladder = pair.ladder.map(|it| edited(&it.text, &renaming.ladder));
+    let ladder = Ladder::read(ladder.unwrap_or_default().into(), &budget);
+    let renamed = Pair {
+        ladder: pair.ladder.map(|_| &ladder),
+        ..pair
+    };
+    let again = Run::new(&new, renamed, &|| true);
+    let went = |run: &Run| {
+        run.simulation
+            .as_ref()
+            .map(|it| (it.rows.len(), it.failures().count()))
+    };
+    assert_eq!(went(&again), went(run));
+    1
+}
+
+/// Everything that can be asked about a whole scenario.
+fn asked_whole(scenario: &Scenario, pair: Pair<'_>, run: &Run) {
+    let all = Span::new(0, scenario.text.len());
+    hints_in_scenario(scenario, pair, run, all);
+    lenses_in_scenario(scenario, pair, run, Some(0));
+    run.findings(scenario, pair);
+    for fold in folds_in_scenario(scenario) {
+        assert!(scenario.text.get(fold.span.range()).is_some());
+    }
+    let mut end = 0;
+    for token in tokens_in_scenario(scenario, pair) {
+        assert!(token.span.start >= end && !token.span.is_empty());
+        end = token.span.end;
+    }
+    for symbol in symbols_of_scenario(scenario) {
+        assert_eq!(symbol.whole.cover(symbol.span), symbol.whole);
+    }
+}
+
+#[test]
+fn scenarios_answer_everywhere() {
+    let budget = Budget::default();
+    let mut renamed = 0;
+    for (path, text) in texts(&["scenario"]) {
+        let ladder = fs::read_to_string(path.with_file_name("neutralization.ladder"));
+        let ladder = Ladder::read(ladder.expect("the ladder").into(), &budget);
+        let pair = Pair {
+            ladder: Some(&ladder),
+            spec: None,
+        };
+        let scenario = Scenario::read(text.as_str().into());
+        let run = Run::new(&scenario, pair, &|| true);
+        assert!(run.simulation.is_some(), "{}", path.display());
+        asked_whole(&scenario, pair, &run);
+        for offset in (0..=text.len()).step_by(3) {
+            renamed += asked_at(&scenario, pair, &run, offset);
+        }
+    }
+    assert!(renamed > 30, "only {renamed} names could be renamed");
+}
+
+#[test]
+fn what_is_no_scenario_answers_too() {
+    let budget = Budget::default();
+    for (_, text) in texts(&["scenario", "ladder", "grafcet"]) {
+        for part in 1..4 {
+            let mut cut: String = text.chars().take(text.chars().count() * part / 4).collect();
+            cut += ["\u{1f6d1}", "\"\u{e4}", "on s => \"on"][part - 1];
+            let ladder = Ladder::read(text.as_str().into(), &budget);
+            let spec = Spec::read(cut.as_str().into());
+            let scenario = Scenario::read(cut.as_str().into());
+            let pair = Pair {
+                ladder: Some(&ladder),
+                spec: Some(&spec),
+            };
+            let run = Run::new(&scenario, pair, &|| true);
+            asked_whole(&scenario, pair, &run);
+            for back in 0..12 {
+                // Inside of characters, too, and past the end.
+                let offset = (cut.len() + 2).saturating_sub(back);
+                complete_in_scenario(&scenario, pair, &[], offset);
+                let own = RunOn {
+                    run_on: pair,
+                    run: &run,
+                };
+                hover_in_scenario(&scenario, pair, own, offset, &budget);
+                selections_in_scenario(&scenario, offset);
+                lay_out_scenario(&scenario, Extent::Line(offset));
+            }
+        }
+    }
+}
+
 #[test]
 fn edits_lay_a_text_out_as_the_formatter_does() {
     for (path, text) in texts(&["ladder"]) {
@@ -151,6 +286,11 @@ fn edits_lay_a_text_out_as_the_formatter_does() {
         let all = Extent::Statements(Span::new(0, text.len()));
         let parts = lay_out_ladder(&ladder, all).expect("a layout");
         assert_eq!(edited(&text, &parts), laid, "{}", path.display());
+    }
+    for (path, text) in texts(&["scenario"]) {
+        let edits = lay_out_scenario(&Scenario::read(text.as_str().into()), Extent::Whole);
+        let laid = scenario::format(&text).text;
+        assert_eq!(edited(&text, &edits), laid, "{}", path.display());
     }
     for (path, text) in texts(&["grafcet"]) {
         let edits = lay_out_spec(&Spec::read(text.as_str().into()), Extent::Whole);

@@ -26,5 +26,6 @@ pub use format::{Formatted, format};
 pub use model::{
     Change, DEFAULT_CYCLE_MS, Expectation, FileName, Passing, Scenario, Step, Test, Timing,
 };
+pub use parse::{WORDS, spelled};
 pub use read::{Reading, is_scenario, read};
-pub use write::{done, write};
+pub use write::{done, expectation, expected, write};

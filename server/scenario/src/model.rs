@@ -103,6 +103,8 @@ pub struct Expectation {
     pub test: Test,
     /// Where it stands.
     pub span: Span,
+    /// Where in it the name stands.
+    pub named: Span,
 }
 
 /// What is asked of a value.

@@ -32,12 +32,12 @@ impl Statement {
 }
 
 /// Words of the notation. A variable that is called so is written in quotes.
-const WORDS: [&str; 9] = [
+pub const WORDS: [&str; 9] = [
     "cycle", "for", "off", "on", "only", "scan", "scenario", "timing", "wait",
 ];
 
 /// A name as scenarios write it.
-pub(crate) fn spelled(name: &str) -> String {
+pub fn spelled(name: &str) -> String {
     match WORDS.contains(&name) {
         true => format!("\"{name}\""),
         false => quoted(name),
@@ -179,19 +179,24 @@ impl Parser<'_> {
 
     fn expectation(&mut self) -> Result<Expectation, Problem> {
         let start = self.lexer.here().range().start;
-        let (name, test) = match self.on_or_off() {
+        let (name, named, test) = match self.on_or_off() {
             Some(is_on) => {
-                let (name, _) = self.name("the name of an output")?;
-                (name, if is_on { Test::On } else { Test::Off })
+                let (name, named) = self.name("the name of an output")?;
+                (name, named, if is_on { Test::On } else { Test::Off })
             }
             None => {
-                let (name, _) = self.name("`on`, `off` or the name of an output")?;
+                let (name, named) = self.name("`on`, `off` or the name of an output")?;
                 let relation = self.relation()?;
-                (name, Test::Compares(relation, self.value()?))
+                (name, named, Test::Compares(relation, self.value()?))
             }
         };
         let span = self.lexer.since(start);
-        Ok(Expectation { name, test, span })
+        Ok(Expectation {
+            name,
+            test,
+            span,
+            named,
+        })
     }
 
     fn relation(&mut self) -> Result<Relation, Problem> {

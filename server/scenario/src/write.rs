@@ -42,12 +42,23 @@ pub fn done(step: &Step) -> String {
     done.join(", ")
 }
 
+/// What a step expects, as its line says it behind the arrow: `only on v1`.
+/// Empty if it expects nothing.
+pub fn expected(step: &Step) -> String {
+    let expected: Vec<String> = step.expected.iter().map(expectation).collect();
+    let all = expected.join(", ");
+    match (step.only, all.is_empty()) {
+        (true, true) => "only".to_owned(),
+        (true, false) => format!("only {all}"),
+        (false, _) => all,
+    }
+}
+
 fn step(step: &Step) -> String {
     let mut text = done(step);
-    if step.only || !step.expected.is_empty() {
-        text += if step.only { " => only " } else { " => " };
-        let expected: Vec<String> = step.expected.iter().map(expectation).collect();
-        text += &expected.join(", ");
+    let expected = expected(step);
+    if !expected.is_empty() {
+        text += &format!(" => {expected}");
     }
     let comment = step.comment.as_deref().unwrap_or_default();
     let comment = comment.replace(['\r', '\n'], " ");
@@ -66,7 +77,8 @@ fn change(change: &Change) -> String {
     }
 }
 
-fn expectation(expectation: &Expectation) -> String {
+/// An expectation as a line says it: `on v1`, `Count = 3`.
+pub fn expectation(expectation: &Expectation) -> String {
     let name = spelled(&expectation.name);
     match expectation.test {
         Test::On => format!("on {name}"),

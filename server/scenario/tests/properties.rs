@@ -57,6 +57,7 @@ fn expectations() -> impl Strategy<Value = Expectation> {
         name,
         test,
         span: Span::default(),
+        named: Span::default(),
     })
 }
 
@@ -114,9 +115,10 @@ fn placeless(mut scenario: Scenario) -> Scenario {
         step.changes
             .iter_mut()
             .for_each(|it| it.span = Span::default());
-        step.expected
-            .iter_mut()
-            .for_each(|it| it.span = Span::default());
+        for expectation in &mut step.expected {
+            expectation.span = Span::default();
+            expectation.named = Span::default();
+        }
     }
     scenario
 }

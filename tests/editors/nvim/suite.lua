@@ -18,6 +18,7 @@ vim.lsp.config('gradus', { cmd = { harness.executable, 'lsp' } })
 require('without_server')
 require('decisions')
 require('commands')
+require('scenarios')
 
 io.stdout:write(('Neovim %s\n'):format(tostring(vim.version())))
 local failed = harness.run_all()

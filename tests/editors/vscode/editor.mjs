@@ -248,6 +248,11 @@ export class Editor {
     });
   }
 
+  /** Waits until a lens in a file's editor says some words. */
+  async hasLens(path, words) {
+    await this.text(path).locator(".codelens-decoration", { hasText: words }).first().waitFor();
+  }
+
   /** How many findings of that severity are underlined in a file's editor. */
   underlined(path, severity) {
     return this.text(path).locator(`.squiggly-${severity}`);

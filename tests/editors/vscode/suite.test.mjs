@@ -7,6 +7,7 @@ import { Editor } from "./editor.mjs";
 import { folders } from "./folders.mjs";
 import { hovers } from "./hovers.mjs";
 import { life } from "./life.mjs";
+import { scenarios } from "./scenarios.mjs";
 import { start } from "./start.mjs";
 import { virtual } from "./virtual.mjs";
 import { startWorkbench } from "./workbench.mjs";
@@ -32,6 +33,7 @@ describe("VS Code", { timeout: 600_000 }, () => {
   describe("decisions", () => decisions(at));
   describe("commands", () => commands(at));
   describe("folders", () => folders(at));
+  describe("scenarios", () => scenarios(at));
   describe("start of the server", () => start(at, vsix));
   describe("virtual workspaces", () => virtual(vsix));
   describe("life of the server", () => life(at));

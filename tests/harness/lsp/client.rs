@@ -35,6 +35,8 @@ pub struct Client {
     open: HashMap<String, (i32, String)>,
     published: HashMap<Uri, VecDeque<PublishDiagnosticsParams>>,
     applied: VecDeque<WorkspaceEdit>,
+    /// What the server asked to be asked again.
+    refreshed: VecDeque<String>,
     notifications: VecDeque<Value>,
 }
 
@@ -86,6 +88,7 @@ impl Client {
             open: HashMap::new(),
             published: HashMap::new(),
             applied: VecDeque::new(),
+            refreshed: VecDeque::new(),
             notifications: VecDeque::new(),
         }
     }
@@ -347,6 +350,19 @@ impl Client {
         self.applied.pop_front().expect("an edit")
     }
 
+    /// Waits until the server asks to be asked again, by the request `method`.
+    pub fn refreshed(&mut self, method: &str) {
+        loop {
+            let mut all = self.refreshed.iter();
+            if let Some(at) = all.position(|it| it == method) {
+                self.refreshed.remove(at);
+                return;
+            }
+            let message = self.wire.receive();
+            self.take(message);
+        }
+    }
+
     /// The params of the next notification called `method`.
     pub fn notification(&mut self, method: &str) -> Value {
         loop {
@@ -406,7 +422,10 @@ impl Client {
             request::CodeLensRefresh::METHOD
             | request::InlayHintRefreshRequest::METHOD
             | request::SemanticTokensRefresh::METHOD
-            | request::WorkspaceDiagnosticRefresh::METHOD => Value::Null,
+            | request::WorkspaceDiagnosticRefresh::METHOD => {
+                self.refreshed.push_back(method.to_owned());
+                Value::Null
+            }
             _ => panic!("nobody expected {method}: {params}"),
         }
     }

@@ -64,6 +64,9 @@ function M.config()
       end,
     },
     commands = {
+      ['gradus.simulate'] = function(command)
+        require('gradus.command').simulate(command.arguments[1].uri)
+      end,
       ['gradus.explain'] = function(command)
         require('gradus.command').run({ 'explain', command.arguments[1] })
       end,

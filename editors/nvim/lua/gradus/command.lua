@@ -60,10 +60,31 @@ local function code_at_cursor()
   return nearest
 end
 
+--- Asks the server to run a command about the scenario in the current buffer, at the cursor's line.
+---@param command string
+---@param on_answer fun(answer: any)
+---@param scan? integer a scan by its number
+local function ask_of_scenario(command, on_answer, scan)
+  if vim.bo.filetype ~= 'gradus-scenario' then
+    tell('this buffer holds no scenario', vim.log.levels.WARN)
+    return
+  end
+  local line = vim.api.nvim_win_get_cursor(0)[1] - 1
+  ask(command, { uri = vim.uri_from_bufnr(0), line = line, scan = scan }, on_answer)
+end
+
+--- Shows the table of a scenario's scans.
+---@param answer { title: string, language: string, text: string, summary: string }
+local function show_scans(answer)
+  beside.show_text(answer)
+  tell(answer.summary)
+end
+
 ---@class gradus.Subcommand
 ---@field does string
 ---@field choices? string[] what may follow it
 ---@field pattern? string what may follow it if it is not one of a few
+---@field expects? string that in words
 ---@field run fun(choice?: string)
 
 ---@type table<string, gradus.Subcommand>
@@ -104,9 +125,31 @@ local subcommands = {
       ask('gradus.conditions', { uri = ladder() }, beside.show_text)
     end,
   },
+  simulate = {
+    does = 'run the scenario, and show its scans',
+    run = function()
+      ask_of_scenario('gradus.simulate', show_scans)
+    end,
+  },
+  scan = {
+    does = "show a scan in ladder and spec: that of the cursor's line, or of a number; off takes it back",
+    choices = { 'off' },
+    pattern = '^%d+$',
+    expects = 'the number of a scan, or off',
+    run = function(choice)
+      if choice == 'off' then
+        ask('gradus.hideScan', vim.empty_dict(), function() end)
+        return
+      end
+      ask_of_scenario('gradus.showScan', function(answer)
+        tell(('scan %d is shown, after %s'):format(answer.scan, answer.done))
+      end, tonumber(choice))
+    end,
+  },
   explain = {
     does = 'show the page of a code, or of the finding under the cursor',
     pattern = '^G%d%d%d%d$',
+    expects = 'a code',
     run = function(code)
       code = code or code_at_cursor()
       if code then
@@ -154,6 +197,12 @@ local function takes(subcommand, choice)
     or subcommand.pattern ~= nil and choice:find(subcommand.pattern) ~= nil
 end
 
+--- Runs the scenario that a lens stands above.
+---@param uri string
+function M.simulate(uri)
+  ask('gradus.simulate', { uri = uri }, show_scans)
+end
+
 ---@param words string[]
 function M.run(words)
   local name, choice = words[1], words[2]
@@ -166,7 +215,7 @@ function M.run(words)
   if not subcommand then
     tell(('%s: the subcommands are %s'):format(name, table.concat(names(), ', ')), vim.log.levels.ERROR)
   elseif choice and not takes(subcommand, choice) then
-    local expected = subcommand.pattern and 'a code' or table.concat(subcommand.choices or { 'nothing' }, ', ')
+    local expected = subcommand.expects or table.concat(subcommand.choices or { 'nothing' }, ', ')
     tell(('%s: %s takes %s'):format(choice, name, expected), vim.log.levels.ERROR)
   else
     subcommand.run(choice)

@@ -37,8 +37,9 @@ of the endings above, or against the one that --against names: rules that depart
 from what the ladder gives, states and decisions that it does not know.
 
 A scenario is run on the ladder and the spec that its `for` line names, or on
-those beside it; what it expects and does not get is an error. Where there is
-neither, only its text is checked.
+those beside it, or on the only ladder in its folder and its spec; what it
+expects and does not get is an error. Where there is nothing to run, only its text
+is checked.
 
 Codes that a gradus.toml beside a file, or in the nearest folder above it, lists in
 `diagnostics.ignore` are neither reported nor counted for that file. What is wrong

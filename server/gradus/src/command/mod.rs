@@ -13,7 +13,7 @@ mod fmt;
 pub mod generate;
 mod lsp;
 mod manual;
-mod simulate;
+pub mod simulate;
 mod suggest;
 
 use crate::io::Io;

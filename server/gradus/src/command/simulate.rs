@@ -18,13 +18,15 @@ use crate::subject::Plant;
 use ide::language;
 
 mod json;
-mod table;
+pub mod summary;
+pub mod table;
 mod trace;
 
 const DETAILS: &str = "\
 The files are told apart by what they hold: a scenario, and the ladder, the spec
 or both that it runs on. A scenario alone runs on what its `for` line names, or
-on the files of its name beside it. docs/notation.md tells how one is written.
+on the files of its name beside it, or on the only ladder in its folder and the
+spec of that. docs/notation.md tells how one is written.
 
 Ladder and spec get the same inputs and the same time. What the spec reads and
 the ladder writes, such as the output of a timer, comes from the ladder. The
@@ -131,7 +133,10 @@ pub fn run(args: &Args, io: &mut Io) -> std::io::Result<Status> {
         let table = table::table(&source.scenario, &simulation, subject, line_of, paint);
         io.answer().write_all(table.as_bytes())?;
     }
-    io.aside(&summary(&source, &simulation, &plant))?;
+    let line_of = source.line_of();
+    let summary = summary::summary(&source.scenario, &simulation, subject, line_of);
+    let name = printable(&input::name(&source.path));
+    io.aside(&format!("{name}: {summary}"))?;
     let is_well = simulation.failures().next().is_none() && simulation.agrees();
     if !is_well {
         status = status.max(Status::ProblemsFound);
@@ -267,43 +272,4 @@ fn record(
             Ok(false)
         }
     }
-}
-
-/// How it went, in a line.
-fn summary(source: &Source, simulation: &Simulation, plant: &Plant) -> String {
-    let scans = simulation.rows.last().map_or(0, |row| row.scan);
-    let mut parts = vec![numbered(
-        usize::try_from(scans).unwrap_or(usize::MAX),
-        "scan",
-    )];
-    let expects = |step: &scenario::Step| step.only || !step.expected.is_empty();
-    if source.scenario.steps.iter().any(expects) {
-        let failed = simulation.failures().count();
-        parts.push(match failed {
-            0 => "all is as expected".to_owned(),
-            failed => format!("{} not met", numbered(failed, "expectation")),
-        });
-    }
-    if plant.ladder.is_some() && plant.spec.is_some() {
-        let differing = simulation
-            .rows
-            .iter()
-            .filter(|row| !row.differences.is_empty());
-        parts.push(match differing.count() {
-            0 => "ladder and spec agree".to_owned(),
-            rows => format!("ladder and spec differ in {}", numbered(rows, "line")),
-        });
-    }
-    let mut text = format!(
-        "{}: {}\n",
-        printable(&input::name(&source.path)),
-        parts.join("; ")
-    );
-    if let Some((step, stop)) = &simulation.stopped {
-        let place = source.line_of()(*step).map(|line| format!(" at line {line}"));
-        let place = place.unwrap_or_default();
-        let reason = printable(&stop.sentence(source.scenario.cycle_ms));
-        text += &format!("stopped{place}: {reason}\n");
-    }
-    text
 }

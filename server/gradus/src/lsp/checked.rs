@@ -1,14 +1,16 @@
 //! The findings in whole folders, for clients that ask for them.
 //!
 //! Files that differ by their ending only are checked together: a ladder, the
-//! spec beside it. Of what was found only a number is kept that tells it from
+//! spec beside it; and all files of a folder that holds a scenario, which may run
+//! on any of them. Of what was found only a number is kept that tells it from
 //! anything else, with what the files were: as long as they are that, a client
 //! that knows the number is told so and nothing is read. Each group is read by
 //! itself and forgotten again, so that a folder may hold more than fits into
 //! memory.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, HashMap, HashSet};
 use std::hash::{DefaultHasher, Hash, Hasher};
+use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
@@ -19,6 +21,7 @@ use super::disk::Disk;
 use super::document::{Contents, Document};
 use super::files::{self, Obeyed, Seen};
 use super::key::FileKey;
+use super::plant::Plant;
 use super::publish;
 use super::world::World;
 use crate::settings::Config;
@@ -34,11 +37,13 @@ pub struct Checked {
     read: std::sync::atomic::AtomicUsize,
 }
 
-/// What is known of files that differ by their ending only.
+/// What is known of files that are checked together.
 #[derive(Clone, Debug)]
 struct Group {
-    /// What they were.
+    /// What they were, and what the files were that they name elsewhere.
     seen: Vec<(FileKey, Seen)>,
+    /// The files that they name elsewhere.
+    elsewhere: Vec<FileKey>,
     /// What was set for them.
     config: Config,
     /// What was found then.
@@ -82,15 +87,20 @@ impl Checked {
     ) {
         let wanted = || !stopped.is_cancelled();
         let mut groups: BTreeMap<FileKey, Vec<FileKey>> = BTreeMap::new();
-        for key in files::all(world, &wanted) {
-            groups.entry(key.without_ending()).or_default().push(key);
+        let all = files::all(world, &wanted);
+        let scenarios = all.iter().filter(|it| it.name().ends_with(".scenario"));
+        let with_scenarios: HashSet<&Path> = scenarios.filter_map(folder).collect();
+        for key in &all {
+            let together = folder(key).filter(|it| with_scenarios.contains(it));
+            let group = together.map_or_else(|| key.without_ending(), FileKey::of_path);
+            groups.entry(group).or_default().push(key.clone());
         }
         let mut obeyed = Obeyed::in_world(world);
         for (stem, keys) in &groups {
             if !wanted() {
                 return;
             }
-            let config = obeyed.config(stem);
+            let config = obeyed.config(&keys[0]);
             let reports = self.reports(world, stem, keys, config, &told, stopped);
             let Some(reports) = reports else {
                 // Whatever holds now, it is not that these are gone.
@@ -130,13 +140,18 @@ impl Checked {
         told: &Told,
         stopped: &Cancel,
     ) -> Option<Vec<Report>> {
-        let seen = keys.iter().filter_map(|key| {
+        let see = |key: &FileKey| {
             let seen = Seen::of(world, key, &config)?;
             Some((key.clone(), seen))
-        });
-        let seen: Vec<(FileKey, Seen)> = seen.collect();
+        };
+        let mut seen: Vec<(FileKey, Seen)> = keys.iter().filter_map(see).collect();
         if let Some(group) = self.lock().get(stem)
-            && group.seen == seen
+            && let further = group.elsewhere.iter().filter_map(see)
+            && seen
+                .iter()
+                .cloned()
+                .chain(further)
+                .eq(group.seen.iter().cloned())
             && group.config == config
             && let Some(reports) = group.as_told(told)
         {
@@ -150,9 +165,9 @@ impl Checked {
             disk: Arc::new(Disk::until(stopped.clone())),
             ..world.clone()
         };
-        let keys = seen.iter().map(|(key, _)| key);
+        let there = seen.iter().map(|(key, _)| key);
         let (looked_at, passed_over): (Vec<_>, Vec<_>) =
-            keys.partition(|key| !only_open || world.open.contains_key(key));
+            there.partition(|key| !only_open || world.open.contains_key(key));
         let documents = looked_at.into_iter().filter_map(|key| own.file(key));
         let documents: Vec<Arc<Document>> = documents.collect();
         let budget = Budget {
@@ -198,8 +213,18 @@ impl Checked {
             return None;
         }
         if !is_given_up {
+            let plants = documents.iter().filter_map(|it| Plant::of(&own, it));
+            let named = plants
+                .flat_map(|it| [it.pair.ladder, it.pair.spec])
+                .flatten();
+            let named = named
+                .map(|it| it.key.clone())
+                .filter(|it| !keys.contains(it));
+            let elsewhere: Vec<FileKey> = named.collect();
+            seen.extend(elsewhere.iter().filter_map(see));
             let group = Group {
                 seen,
+                elsewhere,
                 config,
                 known,
             };
@@ -244,6 +269,11 @@ impl Group {
     }
 }
 
+/// The folder of a file.
+fn folder(key: &FileKey) -> Option<&Path> {
+    key.path()?.parent()
+}
+
 /// What tells findings from others.
 fn number(found: &[Diagnostic]) -> String {
     let mut hasher = DefaultHasher::new();
@@ -254,7 +284,6 @@ fn number(found: &[Diagnostic]) -> String {
 #[cfg(test)]
 mod tests {
     use std::fs;
-    use std::path::Path;
 
     use super::*;
 

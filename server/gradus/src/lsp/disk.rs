@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 use std::fs;
+use std::path::Path;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::SystemTime;
 
@@ -75,6 +76,20 @@ impl Disk {
             })
             .map(|other| FileKey::of_path(&other))
             .collect();
+        found.sort();
+        found
+    }
+
+    /// Files in the folder of `key` that end in `ending`.
+    pub fn in_folder(&self, key: &FileKey, ending: &str) -> Vec<FileKey> {
+        let folder = key.path().and_then(Path::parent);
+        let entries = folder.and_then(|folder| fs::read_dir(folder).ok());
+        let paths = entries.into_iter().flatten().flatten();
+        let paths = paths.map(|entry| entry.path()).filter(|path| {
+            let own = path.extension().map(|it| it.to_ascii_lowercase());
+            own.is_some_and(|own| own == ending)
+        });
+        let mut found: Vec<FileKey> = paths.map(|path| FileKey::of_path(&path)).collect();
         found.sort();
         found
     }

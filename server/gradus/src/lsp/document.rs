@@ -8,8 +8,8 @@
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
 use ide::language;
-use ide::symbols::{Symbol, names_of_program, symbols_of_spec};
-use ide::{Ladder, Spec};
+use ide::symbols::{Symbol, names_of_program, symbols_of_scenario, symbols_of_spec};
+use ide::{Ladder, Scenario, Spec};
 use logic::{Budget, Cancel};
 use ropey::Rope;
 use source::{Diagnostic, Span};
@@ -47,6 +47,8 @@ pub enum Contents {
     Ladder(Arc<Ladder>),
     /// A spec.
     Spec(Arc<Spec>),
+    /// A scenario.
+    Scenario(Arc<Scenario>),
     /// Something that is none of ours.
     Foreign,
 }
@@ -155,7 +157,7 @@ impl Document {
             let text: Arc<str> = self.rope.to_string().into();
             match self.kind(&text) {
                 Kind::Spec => Contents::Spec(Arc::new(Spec::read(text))),
-                Kind::Foreign => Contents::Foreign,
+                Kind::Scenario => Contents::Scenario(Arc::new(Scenario::read(text))),
                 Kind::Ladder(certainty) => {
                     let before = self.before().clone();
                     let ladder = Ladder::following(before.as_deref(), text, &self.budget());
@@ -173,7 +175,8 @@ impl Document {
     }
 
     /// Everything there is to say about it. What a spec has to hear depends on
-    /// its ladder; what a ladder has to hear, on nothing else.
+    /// its ladder; what a ladder has to hear, on nothing else. What a scenario has
+    /// to hear comes of a run, see [`publish`](super::publish).
     pub fn findings(&self, world: &World, budget: &Budget) -> Vec<Diagnostic> {
         match self.contents() {
             Contents::Ladder(ladder) => {
@@ -185,7 +188,7 @@ impl Document {
                 let ladder = beside.as_ref().and_then(|it| it.ladder());
                 spec.findings(ladder.map(|it| &**it), budget)
             }
-            Contents::Foreign => Vec::new(),
+            Contents::Scenario(_) | Contents::Foreign => Vec::new(),
         }
     }
 
@@ -205,13 +208,29 @@ impl Document {
         }
     }
 
+    /// The scenario that it holds, if it holds one.
+    pub fn scenario(&self) -> Option<&Arc<Scenario>> {
+        match self.contents() {
+            Contents::Scenario(scenario) => Some(scenario),
+            _ => None,
+        }
+    }
+
+    /// Whether it may hold a scenario: to know costs no more than to read one.
+    pub fn may_be_scenario(&self) -> bool {
+        match self.contents.get() {
+            Some(contents) => matches!(contents, Contents::Scenario(_)),
+            None => self.is(".scenario", "gradus-scenario"),
+        }
+    }
+
     /// The names in it, told from reading it alone, which takes a small part of
     /// the time that an analysis does.
     pub fn names(&self) -> Vec<Symbol> {
         let text = self.rope.to_string();
         match self.kind(&text) {
             Kind::Spec => symbols_of_spec(&Spec::read(text.into())),
-            Kind::Foreign => Vec::new(),
+            Kind::Scenario => symbols_of_scenario(&Scenario::read(text.into())),
             Kind::Ladder(_) => {
                 let program = ladder::read(text.as_bytes()).program;
                 names_of_program(&program, &text)
@@ -222,19 +241,25 @@ impl Document {
     /// The project's own notations are known by their names, so that an empty
     /// file can be begun; of all else only the content tells.
     fn kind(&self, text: &str) -> Kind {
-        let name = self.key.name().to_ascii_lowercase();
-        let is = |ending: &str, id: &str| name.ends_with(ending) || self.language_id == id;
-        if is(".grafcet", "grafcet") {
-            Kind::Spec
-        } else if is(".scenario", "gradus-scenario") {
-            Kind::Foreign
-        } else if let language::File::Spec(_) = language::of(text.as_bytes()) {
-            Kind::Spec
-        } else if is(".ladder", "gradus-ladder") {
-            Kind::Ladder(Certainty::Sure)
-        } else {
-            Kind::Ladder(Certainty::Perhaps)
+        if self.is(".grafcet", "grafcet") {
+            return Kind::Spec;
         }
+        if self.is(".scenario", "gradus-scenario") {
+            return Kind::Scenario;
+        }
+        let is_ladder = self.is(".ladder", "gradus-ladder");
+        match language::of(text.as_bytes()) {
+            language::File::Spec(_) => Kind::Spec,
+            language::File::Scenario(_) if !is_ladder => Kind::Scenario,
+            _ if is_ladder => Kind::Ladder(Certainty::Sure),
+            _ => Kind::Ladder(Certainty::Perhaps),
+        }
+    }
+
+    /// Whether its name, or the client, says that it is written in a notation.
+    fn is(&self, ending: &str, id: &str) -> bool {
+        let name = self.key.name().to_ascii_lowercase();
+        name.ends_with(ending) || self.language_id == id
     }
 
     /// The byte at a position.
@@ -251,7 +276,7 @@ impl Document {
 enum Kind {
     Ladder(Certainty),
     Spec,
-    Foreign,
+    Scenario,
 }
 
 /// Whether a text that cannot be read is a ladder all the same.

@@ -10,7 +10,7 @@ use super::disk::Stamp;
 use super::document::Document;
 use super::key::FileKey;
 use super::world::World;
-use crate::input::{ENDINGS, expand_while};
+use crate::input::{CHECKED, expand_while};
 use crate::settings::Config;
 
 /// Files that are looked at, at most. A folder that holds more is no plant's.
@@ -23,7 +23,7 @@ pub fn all(world: &World, wanted: &dyn Fn() -> bool) -> BTreeSet<FileKey> {
     let mut keys: BTreeSet<FileKey> = open.map(|it| it.key.clone()).collect();
     let folders = world.folders.iter().filter_map(FileKey::path);
     let folders: Vec<PathBuf> = folders.map(PathBuf::from).collect();
-    let found = expand_while(&folders, ENDINGS, wanted);
+    let found = expand_while(&folders, CHECKED, wanted);
     let files = found.candidates.iter().take(MOST);
     keys.extend(files.map(|it| FileKey::of_path(&it.path)));
     keys

@@ -109,6 +109,6 @@ fn findings(world: &World, place: &Path, file: &File) -> Vec<Diagnostic> {
     let text = String::from_utf8_lossy(&file.text);
     let document = Document::new(uri, "toml", None, &text);
     let found = file.findings.iter();
-    let shown = found.map(|it| publish::diagnostic(world, &document, it));
+    let shown = found.map(|it| publish::diagnostic(world, &document, it, Vec::new()));
     shown.collect()
 }

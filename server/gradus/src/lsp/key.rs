@@ -7,7 +7,7 @@
 use std::path::{Component, Path, PathBuf};
 use std::str::FromStr;
 
-use percent_encoding::percent_decode_str;
+use percent_encoding::{AsciiSet, CONTROLS, percent_decode_str, utf8_percent_encode};
 use tower_lsp::ls_types::Uri;
 
 /// A file, however its address is spelled.
@@ -100,6 +100,36 @@ pub fn beside(uri: &Uri, ending: &str) -> Option<Uri> {
     Uri::from_str(&format!("{}.{ending}", &text[..stem])).ok()
 }
 
+/// Signs of a path that mean something else in an address.
+const ODD: &AsciiSet = &CONTROLS
+    .add(b' ')
+    .add(b'"')
+    .add(b'#')
+    .add(b'%')
+    .add(b'<')
+    .add(b'>')
+    .add(b'?')
+    .add(b'[')
+    .add(b']')
+    .add(b'^')
+    .add(b'`')
+    .add(b'{')
+    .add(b'|')
+    .add(b'}');
+
+/// The address of the file at `path`, seen from the folder of `uri`.
+pub fn in_folder_of(uri: &Uri, path: &str) -> Option<Uri> {
+    match FileKey::of(uri) {
+        FileKey::Path(own) => FileKey::of_path(&own.parent()?.join(path)).uri(),
+        FileKey::Elsewhere(_) => {
+            let text = uri.as_str();
+            let text = &text[..text.find(['?', '#']).unwrap_or(text.len())];
+            let folder = &text[..text.rfind('/')? + 1];
+            Uri::from_str(&format!("{folder}{}", utf8_percent_encode(path, ODD))).ok()
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -128,6 +158,23 @@ mod tests {
         let key = FileKey::of(&uri("vscode-vfs://github/a/tank.ladder"));
         assert_eq!(key.path(), None);
         assert_eq!(key.name(), "tank.ladder");
+    }
+
+    #[test]
+    fn a_file_is_found_in_the_folder_of_another() {
+        let found = |uri: &str, path: &str| {
+            let found = in_folder_of(&self::uri(uri), path);
+            found.map(|it| it.as_str().to_owned())
+        };
+        assert_eq!(
+            found("file:///p/fill.scenario", "../q/a b.ladder").as_deref(),
+            Some("file:///q/a%20b.ladder")
+        );
+        assert_eq!(
+            found("vscode-vfs://github/p/fill.scenario?x", "a b.ladder").as_deref(),
+            Some("vscode-vfs://github/p/a%20b.ladder")
+        );
+        assert_eq!(found("untitled:Untitled-1", "a.ladder"), None);
     }
 
     #[test]

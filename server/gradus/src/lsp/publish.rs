@@ -11,33 +11,89 @@ use tower_lsp::ls_types::{
 
 use super::document::Document;
 use super::fault;
+use super::plant::Plant;
 use super::virtual_document::{self, Page};
 use super::world::World;
 
 /// Everything there is to say about a document, as the client shows it.
 pub fn diagnostics(world: &World, document: &Arc<Document>, budget: &Budget) -> Vec<Diagnostic> {
     fault::forced(fault::DIAGNOSTICS);
-    let found = shown(world, document, budget);
-    let found = found.iter();
-    found.map(|it| diagnostic(world, document, it)).collect()
+    let found = findings(world, document, budget).into_iter();
+    found
+        .map(|(finding, elsewhere)| diagnostic(world, document, &finding, elsewhere))
+        .collect()
 }
 
 /// The findings in a document that the user wants to see.
-pub fn shown(world: &World, document: &Document, budget: &Budget) -> Vec<source::Diagnostic> {
+pub fn shown(world: &World, document: &Arc<Document>, budget: &Budget) -> Vec<source::Diagnostic> {
+    let found = findings(world, document, budget).into_iter();
+    found.map(|(finding, _)| finding).collect()
+}
+
+/// The same, each with the places in other documents that belong to it.
+fn findings(
+    world: &World,
+    document: &Arc<Document>,
+    budget: &Budget,
+) -> Vec<(source::Diagnostic, Vec<DiagnosticRelatedInformation>)> {
     let wanted = world.config(&document.key).diagnostics;
     if !wanted.enable {
         return Vec::new();
     }
     let ignored = wanted.ignored();
-    let mut found = document.findings(world, budget);
-    found.retain(|it| !ignored.contains(&it.code));
+    let mut found = match Plant::of(world, document) {
+        Some(plant) => in_scenario(world, document, &plant),
+        None => {
+            let found = document.findings(world, budget).into_iter();
+            found.map(|finding| (finding, Vec::new())).collect()
+        }
+    };
+    found.retain(|(finding, _)| !ignored.contains(&finding.code));
     found
 }
 
-/// A finding in the protocol's types. To a client that does not show other
-/// places, the message tells of them.
-pub fn diagnostic(world: &World, document: &Document, finding: &source::Diagnostic) -> Diagnostic {
+/// What there is to say about a scenario.
+fn in_scenario(
+    world: &World,
+    document: &Arc<Document>,
+    plant: &Plant,
+) -> Vec<(source::Diagnostic, Vec<DiagnosticRelatedInformation>)> {
+    let Some(scenario) = document.scenario() else {
+        return Vec::new();
+    };
+    let run = world.runs.run(document, scenario, plant);
+    let found = run.findings(scenario, plant.run_on()).into_iter();
+    let elsewhere = |(target, message): (ide::navigate::Target, String)| {
+        let other = plant.pair.document(target.side)?;
+        Some(DiagnosticRelatedInformation {
+            location: other.location(target.name, world.encoding()),
+            message,
+        })
+    };
+    let trouble = plant.trouble.iter().cloned();
+    let trouble = trouble.map(|finding| (finding, Vec::new()));
+    trouble
+        .chain(found.map(|it| {
+            let elsewhere = it.related.into_iter().filter_map(elsewhere);
+            (it.diagnostic, elsewhere.collect())
+        }))
+        .collect()
+}
+
+/// A finding in the protocol's types, with the places in other documents that
+/// belong to it. To a client that does not show other places, the message tells
+/// of them.
+pub fn diagnostic(
+    world: &World,
+    document: &Document,
+    finding: &source::Diagnostic,
+    elsewhere: Vec<DiagnosticRelatedInformation>,
+) -> Diagnostic {
     let (encoding, abilities) = (world.encoding(), &world.abilities);
+    let mut message = finding.message.clone();
+    if !abilities.related_places {
+        message.extend(elsewhere.iter().map(line_elsewhere));
+    }
     let related = finding
         .related
         .iter()
@@ -45,11 +101,11 @@ pub fn diagnostic(world: &World, document: &Document, finding: &source::Diagnost
             location: document.location(related.span, encoding),
             message: related.message.clone(),
         });
-    let related: Vec<_> = related.collect();
-    let mut message = finding.message.clone();
+    let mut related: Vec<_> = related.collect();
     if !abilities.related_places {
         message.extend(related.iter().map(line));
     }
+    related.extend(elsewhere);
     if let Some(help) = &finding.help {
         message += &format!("\n{help}");
     }
@@ -72,6 +128,13 @@ pub fn diagnostic(world: &World, document: &Document, finding: &source::Diagnost
 fn line(related: &DiagnosticRelatedInformation) -> String {
     let line = related.location.range.start.line + 1;
     format!("\nline {line}: {}", related.message)
+}
+
+/// The same of a place in another document.
+fn line_elsewhere(related: &DiagnosticRelatedInformation) -> String {
+    let file = super::key::FileKey::of(&related.location.uri).name();
+    let line = related.location.range.start.line + 1;
+    format!("\n{file}, line {line}: {}", related.message)
 }
 
 /// The address of the page that explains a code, for clients that show

@@ -10,11 +10,12 @@ use tower_lsp::ls_types::{Location, Position, Range, Uri};
 use super::document::Document;
 use super::fault;
 use super::guard::{internal, reason};
+use super::plant::Plant;
 use super::position::Encoding;
 use super::world::World;
 use crate::settings::Config;
 use ide::navigate::{self, Side};
-use ide::{Ladder, Spec};
+use ide::{Ladder, Run, Scenario, Spec};
 use recovery::successions::Evidence;
 use source::Span;
 
@@ -65,6 +66,37 @@ impl Query {
         self.document.spec()
     }
 
+    /// The scenario that the document holds.
+    pub fn scenario(&self) -> Option<&Arc<Scenario>> {
+        self.document.scenario()
+    }
+
+    /// What the scenario that the document holds runs on, and what comes of it.
+    pub fn run(&self) -> Option<(Plant, Arc<Run>)> {
+        let scenario = self.scenario()?;
+        let plant = Plant::of(&self.world, &self.document)?;
+        let run = self.world.runs.run(&self.document, scenario, &plant);
+        Some((plant, run))
+    }
+
+    /// The step of the scenario in the document of which a scan is shown.
+    pub fn chosen_step(&self, run: &Run) -> Option<usize> {
+        let chosen = self.world.chosen.as_ref();
+        let own = chosen.filter(|it| it.scenario == self.document.key)?;
+        own.scan.in_run(run).map(|(step, _)| step)
+    }
+
+    /// What the document holds, as far as it is understood.
+    pub fn text(&self) -> Option<Text<'_>> {
+        if let Some(spec) = self.spec() {
+            return Some(Text::Spec(spec));
+        }
+        match self.scenario() {
+            Some(scenario) => Some(Text::Scenario(scenario)),
+            None => self.ladder().map(|it| Text::Ladder(it)),
+        }
+    }
+
     /// The document and the one beside it, told apart.
     pub fn pair(&self) -> Pair {
         Pair::of(&self.world, &self.document)
@@ -85,8 +117,19 @@ impl Query {
     }
 }
 
+/// What a document holds.
+#[derive(Clone, Copy, Debug)]
+pub enum Text<'q> {
+    /// A ladder.
+    Ladder(&'q Ladder),
+    /// A spec.
+    Spec(&'q Spec),
+    /// A scenario.
+    Scenario(&'q Scenario),
+}
+
 /// A ladder and the spec beside it.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Pair {
     /// The document that holds the ladder.
     pub ladder: Option<Arc<Document>>,
@@ -95,8 +138,12 @@ pub struct Pair {
 }
 
 impl Pair {
-    /// A document and the one beside it.
+    /// A document and the one beside it; of a scenario the two that it belongs
+    /// to.
     pub fn of(world: &World, document: &Arc<Document>) -> Self {
+        if let Some(plant) = Plant::of(world, document) {
+            return plant.belongs_to(world);
+        }
         if document.spec().is_some() {
             return Self {
                 ladder: world.ladder_of(document),
@@ -170,8 +217,7 @@ where
             },
         };
         let answer = work(&query);
-        let mut used = query.world.open_partners(&query.document.key);
-        used.push(Arc::clone(&query.document));
+        let used = query.world.used_by(&query.document);
         match used.iter().any(|document| document.is_outdated()) {
             true => Err(Error::content_modified()),
             false => Ok(answer),

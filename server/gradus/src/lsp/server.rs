@@ -22,6 +22,7 @@ use super::log::Log;
 use super::progress::{self, Shown, Work};
 use super::query::{self, Query, about};
 use super::requests::command::Command;
+use super::shown::Changes;
 use super::teller::Tellers;
 use super::transport::Output;
 use super::world::State;
@@ -66,6 +67,8 @@ pub struct Shared {
     pub in_force: InForce,
     /// What was found in whole folders.
     pub checked: Checked,
+    /// Changes of what lenses and hints of other documents depend on.
+    pub changes: Changes,
 }
 
 impl Server {
@@ -81,6 +84,7 @@ impl Server {
                 progress: Shown::default(),
                 in_force: InForce::default(),
                 checked: Checked::default(),
+                changes: Changes::default(),
             }),
             end,
         })
@@ -261,13 +265,15 @@ impl LanguageServer for Server {
         let (mut matters, mut is_set) = (false, false);
         for change in params.changes {
             let key = FileKey::of(&change.uri);
-            let partners = self.shared.state.change(|world| {
+            let (partners, runs) = self.shared.state.change(|world| {
                 world.disk.forget(&key);
                 world.settings.forget(&key);
-                world.open_partners(&key)
+                let runs = world.open.values().any(|it| it.may_be_scenario());
+                (world.open_partners(&key), runs)
             });
             is_set |= key.name() == file::NAME;
-            matters |= !partners.is_empty();
+            matters |= runs || !partners.is_empty();
+            telling::scenarios(&self.shared, &key);
             for partner in partners {
                 telling::changed(&self.shared, &partner.key);
             }
@@ -343,6 +349,28 @@ impl LanguageServer for Server {
         match requests::command::read(params)? {
             Command::Explain(code) => Ok(Some(requests::command::page(code))),
             Command::Report => Ok(Some(requests::command::report(&world, &self.shared.log))),
+            Command::Simulate(uri) => {
+                let what = format!("{} holds no scenario", uri.as_str());
+                let shown = about(world, uri, requests::simulate::table);
+                shown
+                    .await?
+                    .map(Some)
+                    .ok_or_else(|| Error::invalid_params(what))
+            }
+            Command::ShowScan(uri, wanted) => {
+                let found = about(world, uri, move |query| {
+                    requests::simulate::scan(query, wanted)
+                });
+                let found = found.await?;
+                let what = "the scenario has no such scan, or was not run so far";
+                let (chosen, answer) = found.ok_or_else(|| Error::invalid_params(what))?;
+                telling::choose(&self.shared, Some(chosen));
+                Ok(Some(answer))
+            }
+            Command::HideScan => {
+                telling::choose(&self.shared, None);
+                Ok(None)
+            }
             Command::Ladder(uri, command) => {
                 let done = about(world, uri.clone(), move |query| {
                     requests::command::answer(query, &command)

@@ -57,6 +57,9 @@ enum Verdict {
 
 /// The status of the ladder that `document` holds or belongs to.
 pub fn of(world: World, document: Arc<Document>) -> Option<Status> {
+    if document.scenario().is_some() {
+        return None;
+    }
     let pair = Pair::of(&world, &document);
     let ladder = pair.ladder()?;
     let weakest = world.config(&document.key).suggestions.evidence.into();

@@ -22,8 +22,10 @@ use super::query::elsewhere;
 use super::requests::command::Done;
 use super::server::Shared;
 use super::settings;
+use super::shown;
 use super::status::{self, StatusNotification};
-use crate::input::ENDINGS;
+use super::world::Chosen;
+use crate::input::CHECKED;
 use crate::settings::file;
 
 /// How long the client may take for an answer.
@@ -66,7 +68,7 @@ pub fn register(shared: &Arc<Shared>) {
     }
     let shared = Arc::clone(shared);
     tokio::spawn(async move {
-        let programs = ENDINGS.iter();
+        let programs = CHECKED.iter();
         let programs = programs.map(|ending| format!("**/*.{}", in_any_case(ending)));
         let all = programs.chain([format!("**/{}", file::NAME)]);
         let watchers = all.map(|pattern| FileSystemWatcher {
@@ -128,6 +130,12 @@ pub fn configure(shared: &Shared, settings: &LSPAny) -> bool {
     })
 }
 
+/// Shows a scan in ladder and spec, or none any more.
+pub fn choose(shared: &Arc<Shared>, chosen: Option<Chosen>) {
+    shared.state.change(|world| world.chosen = chosen);
+    refresh(shared);
+}
+
 /// Tells everything about every open document anew.
 pub fn everything(shared: &Arc<Shared>) {
     let world = shared.state.world();
@@ -144,7 +152,33 @@ pub fn changed(shared: &Arc<Shared>, key: &FileKey) {
     for partner in shared.state.world().open_partners(key) {
         findings(shared, &partner.key);
     }
+    scenarios(shared, key);
     status(shared, key);
+}
+
+/// Tells what is new of the open scenarios that run on the document of `key`:
+/// their findings, and that their lenses and hints may be others now. Those of
+/// ladder and spec are, too, when it is the scenario of which a scan is shown.
+pub fn scenarios(shared: &Arc<Shared>, key: &FileKey) {
+    let world = shared.state.world();
+    if world.chosen.as_ref().is_some_and(|it| it.scenario == *key) {
+        shown::ask_again(shared);
+    }
+    if !world.open.values().any(|it| it.may_be_scenario()) {
+        return;
+    }
+    let (shared, key) = (Arc::clone(shared), key.clone());
+    tokio::spawn(async move {
+        // To know what a scenario runs on, it must be read.
+        let found = elsewhere(move |_| world.open_scenarios_on(&key)).await;
+        let found = found.unwrap_or_default();
+        for scenario in &found {
+            findings(&shared, &scenario.key);
+        }
+        if !found.is_empty() {
+            shown::ask_again(&shared);
+        }
+    });
 }
 
 /// Tells clients that show it how the ladder and the spec of `key` stand.
@@ -183,6 +217,7 @@ pub fn closed(shared: &Arc<Shared>, document: &Document) {
         for partner in world.open_partners(&key) {
             findings(&shared, &partner.key);
         }
+        scenarios(&shared, &key);
     });
 }
 
@@ -212,20 +247,22 @@ async fn tell(shared: &Arc<Shared>, key: &FileKey, in_vain: Cancel) {
         return;
     };
     let (uri, version) = (document.uri.clone(), document.version);
-    let current = Arc::clone(&document);
-    // Of a ladder that changes meanwhile only a part may have been read.
-    let mut used = world.open_partners(key);
-    used.push(Arc::clone(&document));
     let budget = Budget {
         cancel: in_vain.clone(),
         ..Budget::default()
     };
     let under_way = progress::under_way(shared, Work::Analysis(document.key.clone()));
-    let found = elsewhere(move |_| publish::diagnostics(&world, &current, &budget)).await;
+    let found = elsewhere(move |_| {
+        let found = publish::diagnostics(&world, &document, &budget);
+        // Of a ladder that changes meanwhile only a part may have been read.
+        let used = world.used_by(&document);
+        (found, used.iter().any(|it| it.is_outdated()))
+    });
+    let found = found.await;
     drop(under_way);
     match found {
-        Ok(_) if in_vain.is_cancelled() || used.iter().any(|it| it.is_outdated()) => {}
-        Ok(found) => shared.client.publish_diagnostics(uri, found, version).await,
+        Ok((_, is_outdated)) if in_vain.is_cancelled() || is_outdated => {}
+        Ok((found, _)) => shared.client.publish_diagnostics(uri, found, version).await,
         Err(error) => shared.log.line(error.message.into_owned()),
     }
 }

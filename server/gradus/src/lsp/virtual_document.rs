@@ -7,6 +7,7 @@
 //! |---|---|
 //! | `gradus-ladder:/p/tank.L5X.ladder?URI` | the ladder of the document URI in rung notation |
 //! | `gradus-conditions:/p/tank.L5X.txt?URI` | the conditions of all its coils |
+//! | `gradus-simulation:/p/fill.scenario.txt?URI` | the scans of the scenario URI |
 //! | `gradus-explain:/G2002.md` | the page of a code |
 //! | `gradus-explain:/latch.md` | the page of a word |
 
@@ -19,6 +20,7 @@ use source::Code;
 use tower_lsp::ls_types::Uri;
 
 use super::document::Document;
+use super::simulation;
 use super::world::World;
 use crate::command::conditions;
 use ide::{Ladder, Term};
@@ -66,12 +68,16 @@ impl View {
 
     /// The address of this view of the document at `uri`.
     pub fn address(self, uri: &Uri) -> Option<Uri> {
-        let path = uri.path().as_str();
-        let slash = if path.starts_with('/') { "" } else { "/" };
-        let of = utf8_percent_encode(uri.as_str(), NON_ALPHANUMERIC);
-        let address = format!("{}:{slash}{path}.{}?{of}", self.scheme(), self.ending());
-        Uri::from_str(&address).ok()
+        made_of(self.scheme(), uri, self.ending())
     }
+}
+
+/// The address of what is made of the document at `uri`.
+pub fn made_of(scheme: &str, uri: &Uri, ending: &str) -> Option<Uri> {
+    let path = uri.path().as_str();
+    let slash = if path.starts_with('/') { "" } else { "/" };
+    let of = utf8_percent_encode(uri.as_str(), NON_ALPHANUMERIC);
+    Uri::from_str(&format!("{scheme}:{slash}{path}.{ending}?{of}")).ok()
 }
 
 /// The ladder in rung notation, above it what that has no words for.
@@ -127,6 +133,10 @@ pub fn text(world: &World, uri: &Uri, budget: &Budget) -> Option<String> {
         let name = uri.path().as_str().rsplit('/').next()?;
         let page = Page::called(name.strip_suffix(".md")?)?;
         return Some(page.text().to_owned());
+    }
+    if scheme == simulation::SCHEME {
+        let simulated = simulation::simulated(world, &made_from(world, uri)?)?;
+        return Some(simulated.text);
     }
     let mut views = [View::Ladder, View::Conditions].into_iter();
     let view = views.find(|view| view.scheme() == scheme)?;

@@ -8,6 +8,7 @@
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
+use ide::Run;
 use tokio::sync::watch;
 use tower_lsp::ls_types::Uri;
 
@@ -17,6 +18,7 @@ use super::document::{Contents, Document};
 use super::index::Index;
 use super::key::{FileKey, beside};
 use super::position::Encoding;
+use super::runs::Runs;
 use super::settings::Settings;
 use crate::input::LADDER_ENDINGS;
 use crate::settings::Config;
@@ -38,6 +40,38 @@ pub struct World {
     pub index: Arc<Index>,
     /// The client has asked for the end.
     pub is_ending: bool,
+    /// What came of scenarios.
+    pub runs: Arc<Runs>,
+    /// The scan that is shown in ladder and spec.
+    pub chosen: Option<Chosen>,
+}
+
+/// A scan of a scenario.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Chosen {
+    /// The scenario.
+    pub scenario: FileKey,
+    /// Which of its scans.
+    pub scan: Scan,
+}
+
+/// How somebody chose a scan. What is edited later may move it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scan {
+    /// The last one of a step, from 0.
+    EndOf(usize),
+    /// The one of this number, from 1.
+    Number(u64),
+}
+
+impl Scan {
+    /// Its step and its number in a run, if that came so far.
+    pub fn in_run(self, run: &Run) -> Option<(usize, u64)> {
+        match self {
+            Self::EndOf(step) => Some((step, run.end_of(step)?.scan)),
+            Self::Number(number) => Some((run.step_of(number)?, number)),
+        }
+    }
 }
 
 impl World {
@@ -102,6 +136,15 @@ impl World {
             Contents::Ladder(ladder) => ladder.is_known(),
             _ => false,
         })
+    }
+
+    /// The open ladders and specs in the folder of the document of `key`.
+    pub fn open_beside<'w>(&'w self, key: &'w FileKey) -> impl Iterator<Item = &'w Document> {
+        let folder = |key: &FileKey| key.path().and_then(|it| Some(it.parent()?.to_owned()));
+        let own = folder(key);
+        let open = self.open.values().map(|it| &**it);
+        let beside = open.filter(move |it| own.is_some() && folder(&it.key) == own);
+        beside.filter(|it| matches!(it.contents(), Contents::Ladder(_) | Contents::Spec(_)))
     }
 
     /// The document that belongs to this one, if it is open: the spec of a

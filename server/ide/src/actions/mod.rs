@@ -4,14 +4,16 @@
 //! changes is worked out when somebody takes it.
 
 mod mend;
+mod scenario;
 mod states;
 
 use logic::{Budget, Name};
 use recovery::successions::Evidence;
 use source::{Code, Diagnostic, Fix, Span};
 
-use crate::{Change, Departing, Ladder, Spec};
+use crate::{Change, Departing, Ladder, Shows, Spec};
 use mend::{explaining, fixing, keeping, renewing, withdrawing};
+pub use scenario::actions_in_scenario;
 use states::{about_states, in_ladder, in_spec};
 
 /// Something that can be done.
@@ -46,6 +48,10 @@ pub enum ActionKind {
     Convert,
     /// Explains a finding.
     Explain,
+    /// Has a scenario expect what came out.
+    Expect,
+    /// Shows a scan in ladder and spec, or shows it no more.
+    Scan,
 }
 
 /// What an action does.
@@ -57,6 +63,8 @@ pub enum Effect {
     Here(Fix),
     /// Shows the page of a code.
     Show(Code),
+    /// Shows a scan of the scenario that the action is taken in.
+    Look(Shows),
 }
 
 /// Where somebody asks what can be done.

@@ -9,6 +9,7 @@ mod decision;
 mod known;
 mod ladder;
 mod neutral;
+mod scenario;
 mod spec;
 mod variables;
 
@@ -19,6 +20,7 @@ pub(crate) use boxes::BOXES;
 pub use ladder::complete_in_ladder;
 pub(crate) use ladder::spell;
 pub(crate) use neutral::open_call;
+pub use scenario::complete_in_scenario;
 pub use spec::complete_in_spec;
 
 /// What can be typed at a place, best first.
@@ -72,6 +74,8 @@ pub enum CompletionKind {
     State,
     /// A whole line.
     Line,
+    /// A file.
+    File,
 }
 
 impl Completion {

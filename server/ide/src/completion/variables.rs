@@ -19,6 +19,10 @@ pub(super) enum Wanted {
     Written,
     /// To be declared: those that are not.
     Undeclared,
+    /// To be given a value in a scenario.
+    Driven,
+    /// To be looked at in a scenario.
+    Expected,
 }
 
 /// A variable of a ladder.
@@ -41,7 +45,7 @@ pub(super) fn variables(
 ) -> Vec<Completion> {
     let mut all = collected(ladder, typed);
     all.retain(|it| match wanted {
-        Wanted::Read => true,
+        Wanted::Read | Wanted::Driven | Wanted::Expected => true,
         Wanted::Written => it.declaration.is_none_or(|it| it.class != Class::Constant),
         Wanted::Undeclared => it.declaration.is_none() && !it.name.contains('.'),
     });
@@ -102,12 +106,19 @@ fn is_name(ladder: &Ladder, span: Span, name: &str) -> bool {
     whole && !is_literal(name)
 }
 
-/// For a condition inputs and states come first, for a coil outputs that no
+/// For a scenario what is driven are inputs, and what is expected outputs. For a condition inputs and states come first, for a coil outputs that no
 /// other coil writes.
 fn rank(it: &Variable<'_>, wanted: Wanted) -> u8 {
     let class = it.declaration.map_or(Class::Unknown, |it| it.class);
     match (wanted, class) {
         (Wanted::Undeclared, _) => 0,
+        (Wanted::Driven, Class::Input | Class::InOut) => 0,
+        (Wanted::Driven, _) if !it.written => 1,
+        (Wanted::Driven, _) => 2,
+        (Wanted::Expected, Class::Output | Class::InOut) => 0,
+        (Wanted::Expected, Class::Input | Class::Constant) => 3,
+        (Wanted::Expected, _) if it.written => 1,
+        (Wanted::Expected, _) => 2,
         (Wanted::Written, Class::Output | Class::InOut) if !it.written => 0,
         (Wanted::Written, Class::Output | Class::InOut) => 1,
         (Wanted::Written, Class::Input) => 3,

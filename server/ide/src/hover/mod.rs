@@ -7,6 +7,7 @@
 mod coil;
 mod ladder;
 mod markdown;
+mod scenario;
 mod spec;
 
 use source::Span;
@@ -15,7 +16,9 @@ use crate::Term;
 use crate::condition::broken;
 use markdown::{escaped, in_brackets};
 
+pub(crate) use ladder::rung_title;
 pub use ladder::{hover_in_ladder, hover_of_variable};
+pub use scenario::{RunOn, hover_in_scenario};
 pub use spec::hover_in_spec;
 
 /// What is shown of the thing under the pointer.

@@ -38,7 +38,7 @@ fn of_rule_at(spec: &Spec, places: &Places, offset: usize) -> Option<Hover> {
     }
 }
 
-fn of_step(
+pub(super) fn of_step(
     spec: &Spec,
     ladder: Option<&Ladder>,
     mention: &Mention,
@@ -163,7 +163,7 @@ fn of_state(
     })
 }
 
-fn of_value(
+pub(super) fn of_value(
     spec: &Spec,
     ladder: Option<&Ladder>,
     mention: &Mention,

@@ -72,14 +72,14 @@ pub fn declaration(pair: Pair<'_>, side: Side, offset: usize) -> Option<Jump> {
     jump(named.span, to)
 }
 
-fn jump(from: Span, mut to: Vec<Target>) -> Option<Jump> {
+pub(super) fn jump(from: Span, mut to: Vec<Target>) -> Option<Jump> {
     to.sort();
     to.dedup();
     (!to.is_empty()).then_some(Jump { from, to })
 }
 
 /// The first answer that says anything.
-fn first(answers: Vec<Vec<Target>>) -> Vec<Target> {
+pub(super) fn first(answers: Vec<Vec<Target>>) -> Vec<Target> {
     let mut answers = answers.into_iter();
     answers.find(|it| !it.is_empty()).unwrap_or_default()
 }
@@ -127,7 +127,7 @@ fn declared(pair: Pair<'_>, side: Side, subject: &Subject) -> Vec<Target> {
 
 /// What writes a variable: its coils, and what writes the whole that it is a
 /// part of, as a timer writes its output.
-fn writers(ladder: &Ladder, name: &str) -> Vec<Target> {
+pub(super) fn writers(ladder: &Ladder, name: &str) -> Vec<Target> {
     let wholes = std::iter::successors(Some(name), |name| Some(name.rsplit_once('.')?.0));
     wholes
         .flat_map(|name| ladder.names().of(name))
@@ -136,7 +136,7 @@ fn writers(ladder: &Ladder, name: &str) -> Vec<Target> {
         .collect()
 }
 
-fn declared_in_ladder(ladder: &Ladder, name: &str) -> Vec<Target> {
+pub(super) fn declared_in_ladder(ladder: &Ladder, name: &str) -> Vec<Target> {
     let wholes = std::iter::successors(Some(name), |name| Some(name.rsplit_once('.')?.0));
     let declarations = wholes.map(|name| {
         let all = ladder.names().of(name);

@@ -16,6 +16,7 @@
 mod definition;
 mod highlight;
 mod references;
+mod scenario;
 mod subject;
 
 use source::Span;
@@ -24,9 +25,14 @@ use crate::{Ladder, Spec};
 
 pub use definition::{Jump, declaration, definition};
 pub use highlight::highlights;
+pub(crate) use references::is_part;
 pub use references::references;
+pub use scenario::{
+    declaration_in_scenario, definition_in_scenario, highlights_in_scenario, references_in_scenario,
+};
+pub(crate) use scenario::{driving, standing};
 pub use subject::{Subject, subject};
-pub(crate) use subject::{state_of, written};
+pub(crate) use subject::{of_state, state_of, written};
 
 /// A ladder and the spec beside it, as far as they are there.
 #[derive(Clone, Copy, Debug, Default)]

@@ -130,7 +130,7 @@ fn placed(routine: usize, it: &Routine) -> impl Iterator<Item = (Place, &Rung, &
 }
 
 /// Whether `name` is the variable `whole`, or a part of it.
-fn is_part(name: &str, whole: &str) -> bool {
+pub(crate) fn is_part(name: &str, whole: &str) -> bool {
     let rest = name.strip_prefix(whole);
     rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
 }

@@ -9,15 +9,19 @@ mod derived;
 mod ladder;
 mod leftover;
 mod same;
+mod scenario;
 mod spec;
 mod spelling;
 mod written;
+
+use std::collections::HashMap;
 
 use grafcet::Role;
 use logic::{Budget, Name};
 use source::{Edit, Span};
 
 use crate::{Ladder, Spec, edited};
+pub use scenario::{edits_in_scenario, renamable_in_scenario, rename_in_scenario};
 use written::Variable;
 
 /// What can be renamed at a place.
@@ -38,6 +42,9 @@ pub struct Renaming {
     pub ladder: Vec<Edit>,
     /// The edits of the spec.
     pub spec: Vec<Edit>,
+    /// The new names of variables and steps, by the old ones: scenarios that
+    /// name them follow.
+    pub names: HashMap<Name, Name>,
 }
 
 /// Why something cannot be renamed: a sentence.
@@ -62,15 +69,16 @@ pub fn renamable_in_spec(
     ladder: Option<&Ladder>,
     offset: usize,
 ) -> Option<Result<Renamable, Refusal>> {
-    let (target, span) = match target(spec, ladder, offset)? {
-        Ok(found) => found,
-        Err(refusal) => return Some(Err(refusal)),
-    };
+    Some(target(spec, ladder, offset)?.map(renamable))
+}
+
+/// What was found at a place, as it is shown.
+fn renamable((target, span): (Target, Span)) -> Renamable {
     let name = match target {
         Target::Variable(variable) => variable.name.to_string(),
         Target::Own(own) => own.name.to_string(),
     };
-    Some(Ok(Renamable { span, name }))
+    Renamable { span, name }
 }
 
 /// Renames the variable at the byte `offset` of a ladder, in the spec too.
@@ -94,22 +102,31 @@ pub fn rename_in_spec(
     new: &str,
     budget: &Budget,
 ) -> Option<Result<Renaming, Refusal>> {
-    let renamed = match (target(spec, ladder, offset)?, ladder) {
-        (Err(refusal), _) => Err(refusal),
-        (Ok((Target::Variable(it), _)), Some(ladder)) => {
-            variable(&it, ladder, Some(spec), new, budget)
-        }
-        (Ok((Target::Own(own), _)), Some(ladder)) if own.is_value() && has(ladder, new) => {
+    let target = target(spec, ladder, offset)?;
+    Some(target.and_then(|(target, _)| rename_target(&target, ladder, Some(spec), new, budget)))
+}
+
+/// Renames what was found in a text, in all texts that have it.
+fn rename_target(
+    target: &Target,
+    ladder: Option<&Ladder>,
+    spec: Option<&Spec>,
+    new: &str,
+    budget: &Budget,
+) -> Result<Renaming, Refusal> {
+    match (target, ladder, spec) {
+        (Target::Variable(it), Some(ladder), spec) => variable(it, ladder, spec, new, budget),
+        (Target::Own(own), Some(ladder), _) if own.is_value() && has(ladder, new) => {
             Err(Refusal(format!("the ladder has a `{new}` already")))
         }
-        (Ok((Target::Own(own), _)), _) => spec::rename(spec, &own, new).map(|edits| Renaming {
+        (Target::Own(own), _, Some(spec)) => spec::rename(spec, own, new).map(|edits| Renaming {
             old: own.name.to_string(),
             ladder: Vec::new(),
+            names: spec::new_names(spec, &edits),
             spec: edits,
         }),
-        (Ok((Target::Variable(_), _)), None) => return None,
-    };
-    Some(renamed)
+        (Target::Variable(_), None, _) | (Target::Own(_), _, None) => Ok(Renaming::default()),
+    }
 }
 
 fn has(ladder: &Ladder, name: &str) -> bool {
@@ -147,10 +164,13 @@ fn variable(
         }
         None => Vec::new(),
     };
+    let mut names = spec.map_or_else(HashMap::new, |spec| spec::new_names(spec, &in_spec));
+    names.insert(variable.name.clone(), name);
     Ok(Renaming {
         old: variable.local.clone(),
         ladder: edits,
         spec: in_spec,
+        names,
     })
 }
 

@@ -1,6 +1,6 @@
 //! Renaming in the rule text of a grafcet.
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 
 use grafcet::{Mention, Reading, Role, spelled, spelled_state};
 use logic::Name;
@@ -164,6 +164,19 @@ fn edits(spec: &Spec, renamed: &dyn Fn(&Mention) -> Option<String>) -> Result<Ve
                 .to_owned(),
         )),
     }
+}
+
+/// The new names of variables and steps after `edits`, by the old ones.
+pub(super) fn new_names(spec: &Spec, edits: &[Edit]) -> HashMap<Name, Name> {
+    let again = grafcet::read(&edited(&spec.text, edits));
+    let pairs = spec.reading.places.mentions.iter();
+    let pairs = pairs.zip(&again.places.mentions);
+    let values = pairs.filter(|(old, new)| {
+        matches!(old.role, Role::Step | Role::Variable) && old.name != new.name
+    });
+    values
+        .map(|(old, new)| (old.name.clone(), new.name.clone()))
+        .collect()
 }
 
 /// The name of a part after the renaming.

@@ -3,12 +3,14 @@
 
 mod ladder;
 mod matching;
+mod scenario;
 mod spec;
 
 use source::Span;
 
 pub use ladder::{names_of_program, symbols_of_ladder};
 pub use matching::rank;
+pub use scenario::symbols_of_scenario;
 pub use spec::symbols_of_spec;
 
 /// A thing with a name.
@@ -62,12 +64,19 @@ pub enum SymbolKind {
     Action,
     /// An environment rule or a property.
     Rule,
+    /// A scenario.
+    Scenario,
+    /// A step of a scenario.
+    ScenarioStep,
 }
 
 impl SymbolKind {
     /// Whether people look for it by its name in a whole folder.
     pub fn is_looked_for(self) -> bool {
-        !matches!(self, Self::Section | Self::Action | Self::Box)
+        !matches!(
+            self,
+            Self::Section | Self::Action | Self::Box | Self::ScenarioStep
+        )
     }
 }
 

@@ -3,7 +3,7 @@ use std::collections::{BTreeSet, HashMap};
 use logic::Name;
 use petgraph::graph::NodeIndex;
 
-use super::power::Flow;
+use super::power::{Flow, Power};
 use super::solve::{Memory, Solving};
 use super::state::State;
 use super::timer::Clock;
@@ -112,6 +112,17 @@ impl<'p> Machine<'p> {
     /// Solves the program once, `elapsed_ms` milliseconds after the last scan
     /// began.
     pub fn scan(&mut self, elapsed_ms: u64) {
+        self.scan_observed(elapsed_ms, &mut |_, _, _| {});
+    }
+
+    /// The same. `observe` is told of each rung, by its routine and its place
+    /// there, what power was in it when it was solved; of a rung that a call
+    /// interrupts, or that is solved several times, it is told again.
+    pub fn scan_observed(
+        &mut self,
+        elapsed_ms: u64,
+        observe: &mut dyn FnMut(usize, usize, &Power),
+    ) {
         self.clock.now = self.clock.now.saturating_add(elapsed_ms);
         let first_scan = self.first_scan.clone();
         self.state.write(&first_scan, (self.scans == 0).into());
@@ -119,7 +130,7 @@ impl<'p> Machine<'p> {
         let stretches: usize = self.layouts.iter().map(|one| one.stretches.len()).sum();
         let mut watchdog = SPARE + PER_STRETCH * stretches;
         for root in self.roots.clone() {
-            self.run(root, &mut watchdog);
+            self.run(root, &mut watchdog, observe);
         }
         self.scans += 1;
     }
@@ -165,7 +176,12 @@ impl<'p> Machine<'p> {
         self.overran
     }
 
-    fn run(&mut self, root: usize, watchdog: &mut usize) {
+    fn run(
+        &mut self,
+        root: usize,
+        watchdog: &mut usize,
+        observe: &mut dyn FnMut(usize, usize, &Power),
+    ) {
         let mut frames = vec![enter(root)];
         // Routines on the path of calls; one that calls itself is not followed.
         let mut open = vec![false; self.layouts.len()];
@@ -207,6 +223,7 @@ impl<'p> Machine<'p> {
                     flow.solve(at, &mut circuit);
                 }
             }
+            observe(frame.routine, stretch.rung, flow.power());
             let power = flow.power().at(stretch.last());
             frame.flow = Some((stretch.rung, flow));
             match stretch.steer {

@@ -3,10 +3,11 @@ use std::collections::BTreeSet;
 use logic::notation::{quoted, time};
 use logic::{Datum, Name};
 use scenario::{Scenario, Step, Test};
-use source::{Diagnostic, Span, codes};
+use source::{Diagnostic, Edit, Span, codes};
 
 use super::sides::{Names, Spec};
-use super::{Failure, Simulation, Stop, Subject, Wanted};
+use super::spelling::nearest;
+use super::{Failure, Row, Simulation, Stop, Subject, Wanted};
 
 /// The names in `scenario` that nothing in `subject` knows.
 pub fn unknown(scenario: &Scenario, subject: Subject<'_>) -> BTreeSet<Name> {
@@ -32,8 +33,18 @@ pub fn unknown_names(scenario: &Scenario, subject: Subject<'_>) -> Vec<Diagnosti
         .filter(|(name, _)| unknown.contains(*name))
         .map(|(name, span)| {
             let message = format!("{who} {}", quoted(name));
-            let help = "correct the spelling; capital and small letters differ";
-            Diagnostic::new(codes::SCENARIO_NAME_UNKNOWN, span, message).help(help)
+            let found = Diagnostic::new(codes::SCENARIO_NAME_UNKNOWN, span, message);
+            match nearest(name, subject) {
+                Some(known) => {
+                    let text = scenario::spelled(&known);
+                    let title = format!("Write {text} instead");
+                    let edits = vec![Edit { span, text }];
+                    found
+                        .help(format!("did you mean {}?", quoted(&known)))
+                        .fix(title, edits)
+                }
+                None => found.help("correct the spelling; capital and small letters differ"),
+            }
         })
         .collect()
 }
@@ -42,7 +53,7 @@ pub fn unknown_names(scenario: &Scenario, subject: Subject<'_>) -> Vec<Diagnosti
 fn names(scenario: &Scenario) -> impl Iterator<Item = (&Name, Span)> {
     scenario.steps.iter().flat_map(|step| {
         let changes = step.changes.iter().map(|it| (&it.name, it.span));
-        changes.chain(step.expected.iter().map(|it| (&it.name, it.span)))
+        changes.chain(step.expected.iter().map(|it| (&it.name, it.named)))
     })
 }
 
@@ -51,7 +62,7 @@ fn names(scenario: &Scenario) -> impl Iterator<Item = (&Name, Span)> {
 pub fn findings(scenario: &Scenario, simulation: &Simulation) -> Vec<Diagnostic> {
     let failures = simulation.failures().filter_map(|(row, failure)| {
         let step = scenario.steps.get(row.step)?;
-        Some(failed(step, failure))
+        Some(failed(step, row, failure))
     });
     let mut found: Vec<Diagnostic> = failures.collect();
     if let Some((at, stop)) = &simulation.stopped
@@ -63,27 +74,34 @@ pub fn findings(scenario: &Scenario, simulation: &Simulation) -> Vec<Diagnostic>
     found
 }
 
-fn failed(step: &Step, failure: &Failure) -> Diagnostic {
+/// What is said of `failure` of `step`, which was seen in `row`.
+pub fn failed(step: &Step, row: &Row, failure: &Failure) -> Diagnostic {
     let span: Span = match failure.wanted {
         Wanted::Test(at, _) => step.expected.get(at).map_or(step.span, |it| it.span),
         Wanted::Unchanged(_) => step.span,
     };
-    Diagnostic::new(codes::EXPECTATION_FAILED, span, failure.sentence())
+    let sentence = failure.sentence_when(&format!(" after scan {}", row.scan));
+    Diagnostic::new(codes::EXPECTATION_FAILED, span, sentence)
 }
 
 impl Failure {
     /// `v1 should be on, but the ladder has it off`.
     pub fn sentence(&self) -> String {
+        self.sentence_when("")
+    }
+
+    fn sentence_when(&self, when: &str) -> String {
         let name = quoted(&self.name);
         let has = format!("the {} has it {}", self.side.word(), shown(self.value));
         match self.wanted {
-            Wanted::Test(_, Test::On) => format!("{name} should be on, but {has}"),
-            Wanted::Test(_, Test::Off) => format!("{name} should be off, but {has}"),
+            Wanted::Test(_, Test::On) => format!("{name} should be on{when}, but {has}"),
+            Wanted::Test(_, Test::Off) => format!("{name} should be off{when}, but {has}"),
             Wanted::Test(_, Test::Compares(relation, number)) => {
-                format!("{name} should be {} {number}, but {has}", relation.sign())
+                let sign = relation.sign();
+                format!("{name} should be {sign} {number}{when}, but {has}")
             }
             Wanted::Unchanged(before) => {
-                format!("{name} should stay {}, but {has}", shown(before))
+                format!("{name} should stay {}{when}, but {has}", shown(before))
             }
         }
     }
@@ -101,6 +119,7 @@ impl Stop {
                 let cycle = time(cycle_ms);
                 format!("the step would take {scans} scans of {cycle}; say a longer `cycle`")
             }
+            Self::Enough(scans) => format!("the run was ended after {scans} scans"),
             Self::Cancelled => "the run was stopped".to_owned(),
         }
     }

@@ -10,9 +10,11 @@
 //! scenario of it that expects what came out.
 
 mod findings;
+mod moment;
 mod record;
 mod run;
 mod sides;
+mod spelling;
 
 use grafcet::Grafcet;
 use grafcet::evolution::Unstable;
@@ -20,9 +22,10 @@ use ladder::Program;
 use logic::{Datum, Name};
 use scenario::Test;
 
-pub use findings::{findings, unknown, unknown_names};
+pub use findings::{failed, findings, unknown, unknown_names};
+pub use moment::Moment;
 pub use record::recorded;
-pub use run::simulate;
+pub use run::{moment, simulate, simulate_within};
 
 /// What a scenario is run on.
 #[derive(Clone, Copy, Debug, Default)]
@@ -31,6 +34,16 @@ pub struct Subject<'s> {
     pub ladder: Option<&'s Program>,
     /// The grafcet.
     pub grafcet: Option<&'s Grafcet>,
+}
+
+/// How far a run may go.
+#[derive(Clone, Copy)]
+pub struct Extent<'e> {
+    /// Scans, at most.
+    pub scans: u64,
+    /// Whether somebody still waits for what comes of it; asked before every
+    /// scan.
+    pub wanted: &'e dyn Fn() -> bool,
 }
 
 /// What came of a scenario.
@@ -137,6 +150,8 @@ pub enum Stop {
     Restless,
     /// The step would take so many scans.
     TooLong(u64),
+    /// It has done as many scans as it was allowed.
+    Enough(u64),
     /// Somebody wanted no more.
     Cancelled,
 }

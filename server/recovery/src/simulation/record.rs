@@ -47,5 +47,6 @@ fn expectation(name: &Name, value: Datum) -> Expectation {
             number => Test::Compares(Relation::Equal, number),
         },
         span: Span::default(),
+        named: Span::default(),
     }
 }

@@ -1,8 +1,8 @@
 use logic::{Cancel, Datum, Name};
 use scenario::{Passing, Scenario, Step, Timing};
 
-use super::sides::{Ladder, Names, Spec};
-use super::{Failure, Row, Side, Simulation, Stop, Subject, Values, Wanted};
+use super::sides::{Ladder, Powers, Spec};
+use super::{Extent, Failure, Moment, Row, Side, Simulation, Stop, Subject, Values, Wanted};
 
 /// A step takes no more scans than this; a longer wait wants a longer cycle.
 const MOST_SCANS: u64 = 100_000;
@@ -13,25 +13,50 @@ const MOST_SETTLING: usize = 1_000;
 
 /// Runs `scenario` on `subject`.
 pub fn simulate(scenario: &Scenario, subject: Subject<'_>, cancel: &Cancel) -> Simulation {
-    let names = subject.ladder.map(Names::new);
-    let ladder = match (subject.ladder, &names) {
-        (Some(program), Some(names)) => Some(Ladder::new(program, names)),
-        _ => None,
+    let extent = Extent {
+        scans: u64::MAX,
+        wanted: &|| !cancel.is_cancelled(),
     };
-    let spec = subject.grafcet.map(Spec::new);
-    let mut run = Run::new(scenario, ladder, spec);
-    for (at, step) in scenario.steps.iter().enumerate() {
-        if let Err(stop) = run.step(at, step, cancel) {
-            run.simulation.stopped = Some((at, stop));
-            break;
-        }
-    }
+    simulate_within(scenario, subject, extent)
+}
+
+/// The same, as far as `extent` lets it go.
+pub fn simulate_within(
+    scenario: &Scenario,
+    subject: Subject<'_>,
+    extent: Extent<'_>,
+) -> Simulation {
+    let mut run = Run::new(scenario, subject, extent);
+    run.go();
     run.simulation
 }
 
-struct Run<'r> {
+/// What is in ladder and grafcet after the scan `number`, counted from 1.
+/// `None` if the run does not come so far.
+pub fn moment<'s>(
+    scenario: &Scenario,
+    subject: Subject<'s>,
+    number: u64,
+    wanted: &dyn Fn() -> bool,
+) -> Option<Moment<'s>> {
+    let extent = Extent {
+        scans: number,
+        wanted,
+    };
+    let mut run = Run::new(scenario, subject, extent);
+    run.observed = Some(number);
+    run.go();
+    (run.scan == number && number > 0).then_some(Moment {
+        ladder: run.ladder,
+        spec: run.spec,
+        powers: run.powers,
+    })
+}
+
+struct Run<'r, 's> {
     scenario: &'r Scenario,
-    ladder: Option<Ladder<'r>>,
+    extent: Extent<'r>,
+    ladder: Option<Ladder<'s>>,
     spec: Option<Spec>,
     /// Outputs that both have.
     common: Vec<Name>,
@@ -40,10 +65,16 @@ struct Run<'r> {
     time_ms: u64,
     /// The values at the end of the last step.
     before: Values,
+    /// The scan that is looked at more closely.
+    observed: Option<u64>,
+    /// The power in the rungs in that scan.
+    powers: Powers,
 }
 
-impl<'r> Run<'r> {
-    fn new(scenario: &'r Scenario, ladder: Option<Ladder<'r>>, spec: Option<Spec>) -> Self {
+impl<'r, 's> Run<'r, 's> {
+    fn new(scenario: &'r Scenario, subject: Subject<'s>, extent: Extent<'r>) -> Self {
+        let ladder = subject.ladder.map(Ladder::new);
+        let spec = subject.grafcet.map(Spec::new);
         let mut inputs: Vec<Name> = Vec::new();
         for change in scenario.steps.iter().flat_map(|step| &step.changes) {
             if !inputs.contains(&change.name) {
@@ -70,6 +101,7 @@ impl<'r> Run<'r> {
         }
         let mut run = Self {
             scenario,
+            extent,
             ladder,
             spec,
             common,
@@ -82,13 +114,25 @@ impl<'r> Run<'r> {
             scan: 0,
             time_ms: 0,
             before: Values::default(),
+            observed: None,
+            powers: Powers::new(),
         };
         run.before = run.values();
         run.simulation.start = run.before.clone();
         run
     }
 
-    fn step(&mut self, at: usize, step: &Step, cancel: &Cancel) -> Result<(), Stop> {
+    /// Does all steps, as far as that can be.
+    fn go(&mut self) {
+        for (at, step) in self.scenario.steps.iter().enumerate() {
+            if let Err(stop) = self.step(at, step) {
+                self.simulation.stopped = Some((at, stop));
+                break;
+            }
+        }
+    }
+
+    fn step(&mut self, at: usize, step: &Step) -> Result<(), Stop> {
         for change in &step.changes {
             if let Some(ladder) = &mut self.ladder {
                 ladder.set_input(&change.name, change.value);
@@ -109,25 +153,19 @@ impl<'r> Run<'r> {
             return Err(Stop::TooLong(scans));
         }
         for _ in 0..scans {
-            if cancel.is_cancelled() {
-                return Err(Stop::Cancelled);
-            }
             self.scan(at, cycle.min(left))?;
             left = left.saturating_sub(cycle);
         }
         if self.scenario.timing == Timing::Settled {
-            self.settle(at, cancel)?;
+            self.settle(at)?;
         }
         self.end_step(at, step);
         Ok(())
     }
 
     /// Scans that take no time, until one changes nothing.
-    fn settle(&mut self, at: usize, cancel: &Cancel) -> Result<(), Stop> {
+    fn settle(&mut self, at: usize) -> Result<(), Stop> {
         for _ in 0..MOST_SETTLING {
-            if cancel.is_cancelled() {
-                return Err(Stop::Cancelled);
-            }
             let (ladder, spec) = (self.ladder.clone(), self.spec.clone());
             self.scan(at, 0)?;
             let ladder_rests = match (&self.ladder, &ladder) {
@@ -146,10 +184,19 @@ impl<'r> Run<'r> {
     }
 
     fn scan(&mut self, at: usize, elapsed_ms: u64) -> Result<(), Stop> {
+        if !(self.extent.wanted)() {
+            return Err(Stop::Cancelled);
+        }
+        if self.scan >= self.extent.scans {
+            return Err(Stop::Enough(self.extent.scans));
+        }
         self.scan += 1;
         self.time_ms = self.time_ms.saturating_add(elapsed_ms);
         if let Some(ladder) = &mut self.ladder {
-            ladder.scan(elapsed_ms);
+            match self.observed == Some(self.scan) {
+                true => self.powers = ladder.scan_for_powers(elapsed_ms),
+                false => ladder.scan(elapsed_ms),
+            }
         }
         if let Some(spec) = &mut self.spec {
             let evolved = spec.scan(elapsed_ms, self.ladder.as_ref());

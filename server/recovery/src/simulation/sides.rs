@@ -1,6 +1,7 @@
 //! The two that run, each behind the names of the scenario.
 
 use std::collections::{HashMap, HashSet};
+use std::sync::Arc;
 
 use grafcet::Grafcet;
 use grafcet::evolution::{self, Unstable};
@@ -10,6 +11,7 @@ use logic::notation::quoted;
 use logic::{Datum, Name};
 
 /// The names of a ladder.
+#[derive(Debug)]
 pub(super) struct Names<'p> {
     known: HashSet<&'p str>,
     by_address: HashMap<String, &'p Name>,
@@ -96,16 +98,19 @@ fn goes_to_plant(program: &Program, name: &Name) -> bool {
 }
 
 /// A ladder that runs.
-#[derive(Clone)]
+#[derive(Clone, Debug)]
 pub(super) struct Ladder<'p> {
-    pub(super) names: &'p Names<'p>,
+    pub(super) names: Arc<Names<'p>>,
     machine: scan::Machine<'p>,
 }
 
+/// The power in each rung that a scan solved, by routine and rung.
+pub(super) type Powers = HashMap<(usize, usize), scan::Power>;
+
 impl<'p> Ladder<'p> {
-    pub(super) fn new(program: &'p Program, names: &'p Names<'p>) -> Self {
+    pub(super) fn new(program: &'p Program) -> Self {
         Self {
-            names,
+            names: Arc::new(Names::new(program)),
             machine: scan::Machine::new(program),
         }
     }
@@ -116,6 +121,16 @@ impl<'p> Ladder<'p> {
 
     pub(super) fn scan(&mut self, elapsed_ms: u64) {
         self.machine.scan(elapsed_ms);
+    }
+
+    /// The same, and what power was in its rungs.
+    pub(super) fn scan_for_powers(&mut self, elapsed_ms: u64) -> Powers {
+        let mut powers = Powers::new();
+        self.machine
+            .scan_observed(elapsed_ms, &mut |routine, rung, power| {
+                powers.insert((routine, rung), power.clone());
+            });
+        powers
     }
 
     /// The value of a variable that the ladder knows, or of a term.
@@ -134,7 +149,7 @@ impl<'p> Ladder<'p> {
 }
 
 /// A grafcet that runs.
-#[derive(Clone)]
+#[derive(Clone, Debug)]
 pub(super) struct Spec {
     pub(super) machine: evolution::Machine,
     /// What it reads and does not write.

@@ -1,5 +1,6 @@
 //! Scenarios run on ladders and specs.
 
 mod agreement;
+mod moments;
 mod running;
 mod tables;

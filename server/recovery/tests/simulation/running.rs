@@ -120,12 +120,12 @@ fn what_is_not_so_is_said_at_its_place() {
     assert_eq!(
         said(text, &scenario, &simulation),
         [
-            "off motor: motor should be off, but the ladder has it on",
-            "off motor: motor should be off, but the spec has it on",
-            "on lamp: lamp should be on, but the ladder has it off",
-            "on lamp: lamp should be on, but the spec has it off",
-            "on stop => only: motor should stay on, but the ladder has it off",
-            "on stop => only: motor should stay on, but the spec has it off",
+            "off motor: motor should be off after scan 1, but the ladder has it on",
+            "off motor: motor should be off after scan 1, but the spec has it on",
+            "on lamp: lamp should be on after scan 2, but the ladder has it off",
+            "on lamp: lamp should be on after scan 2, but the spec has it off",
+            "on stop => only: motor should stay on after scan 3, but the ladder has it off",
+            "on stop => only: motor should stay on after scan 3, but the spec has it off",
         ]
     );
 }
@@ -198,7 +198,7 @@ fn unknown_names_are_said() {
         said,
         [
             "Start: the ladder does not know Start",
-            "off Xmotor: the ladder does not know Xmotor",
+            "Xmotor: the ladder does not know Xmotor",
         ]
     );
 }

@@ -6,9 +6,11 @@
 use std::sync::Arc;
 
 use ide::{
-    Action, ActionKind, Asked, Change, Departing, Effect, actions_in_ladder, actions_in_spec,
+    Action, ActionKind, Asked, Change, Departing, Effect, Shows, actions_in_ladder,
+    actions_in_scenario, actions_in_spec,
 };
 use serde::{Deserialize, Serialize};
+use serde_json::json;
 use source::Diagnostic;
 use tower_lsp::ls_types::{
     CodeAction, CodeActionContext, CodeActionKind, CodeActionOrCommand, Command, NumberOrString,
@@ -16,9 +18,10 @@ use tower_lsp::ls_types::{
 };
 
 use super::command::EXPLAIN;
+use super::simulate::{HIDE_SCAN, SHOW_SCAN};
 use crate::lsp::edit::Changes;
 use crate::lsp::publish;
-use crate::lsp::query::{Pair, Query};
+use crate::lsp::query::{Pair, Query, Text};
 
 /// What an action that was not worked out yet needs to be.
 #[derive(Debug, Serialize, Deserialize)]
@@ -34,7 +37,7 @@ pub struct Pending {
 }
 
 /// The kinds of actions that are offered.
-pub const KINDS: [&str; 8] = [
+pub const KINDS: [&str; 10] = [
     "quickfix",
     "refactor.gradus.accept",
     "refactor.gradus.acceptTogether",
@@ -43,6 +46,8 @@ pub const KINDS: [&str; 8] = [
     "refactor.gradus.undo",
     "refactor.gradus.convert",
     "quickfix.gradus.explain",
+    "refactor.gradus.expect",
+    "quickfix.gradus.scan",
 ];
 
 fn kind(kind: ActionKind) -> &'static str {
@@ -55,6 +60,8 @@ fn kind(kind: ActionKind) -> &'static str {
         ActionKind::Undo => 5,
         ActionKind::Convert => 6,
         ActionKind::Explain => 7,
+        ActionKind::Expect => 8,
+        ActionKind::Scan => 9,
     };
     KINDS[at]
 }
@@ -78,9 +85,14 @@ pub fn answer(
         weakest: query.weakest(),
         budget: &query.budget,
     };
-    let actions = match query.spec() {
-        Some(spec) => actions_in_spec(spec, pair.ladder().map(|it| &**it), asked),
-        None => actions_in_ladder(query.ladder()?, pair.spec().map(|it| &**it), asked),
+    let both = pair.looked_at();
+    let actions = match query.text()? {
+        Text::Ladder(ladder) => actions_in_ladder(ladder, both.spec, asked),
+        Text::Spec(spec) => actions_in_spec(spec, both.ladder, asked),
+        Text::Scenario(scenario) => {
+            let (_, run) = query.run()?;
+            actions_in_scenario(scenario, &run, query.chosen_step(&run), asked)
+        }
     };
     let shows_pages = query.world.abilities.pages;
     let wanted = |action: &Action| match &context.only {
@@ -129,6 +141,22 @@ fn in_protocol(
                 .iter()
                 .filter(|it| it.code == Some(NumberOrString::String(code.to_string())));
             answered.diagnostics = Some(about.cloned().collect());
+        }
+        Effect::Look(shows) => {
+            let uri = &query.document.uri;
+            let (command, argument) = match shows {
+                Shows::Scan(step) => {
+                    let span = query.scenario()?.steps().get(step)?.span;
+                    let line = query.range(span).start.line;
+                    (SHOW_SCAN, json!({ "uri": uri, "line": line }))
+                }
+                Shows::NoScan | Shows::Table => (HIDE_SCAN, json!({ "uri": uri })),
+            };
+            answered.command = Some(Command {
+                title: action.title,
+                command: command.to_owned(),
+                arguments: Some(vec![argument]),
+            });
         }
         Effect::Here(fix) => {
             let mut changes = Changes::new(fix.title);

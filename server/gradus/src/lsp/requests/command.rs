@@ -7,6 +7,9 @@
 //! | `gradus.openSpec` | `{ "uri" }` | where the spec is |
 //! | `gradus.ladderText` | `{ "uri" }` | the ladder in rung notation |
 //! | `gradus.conditions` | `{ "uri" }` | the conditions of all coils |
+//! | `gradus.simulate` | `{ "uri" }` | the scans of a scenario |
+//! | `gradus.showScan` | `{ "uri", "line" or "scan" }` | shows a scan in ladder and spec |
+//! | `gradus.hideScan` | | shows it no more |
 //! | `gradus.explain` | a code | its page |
 //! | `gradus.report` | | what to tell about a fault |
 
@@ -18,6 +21,7 @@ use tower_lsp::jsonrpc::{Error, Result};
 use tower_lsp::ls_types::{ExecuteCommandParams, Uri, WorkspaceEdit};
 
 use super::code_action::put;
+use super::simulate::{HIDE_SCAN, SHOW_SCAN, SIMULATE, Wanted};
 use crate::lsp::edit::Changes;
 use crate::lsp::log::Log;
 use crate::lsp::query::Query;
@@ -31,12 +35,15 @@ pub const EXPLAIN: &str = "gradus.explain";
 pub const OPEN_SPEC: &str = "gradus.openSpec";
 
 /// All commands.
-pub const ALL: [&str; 7] = [
+pub const ALL: [&str; 10] = [
     "gradus.convert",
     "gradus.acceptHandovers",
     OPEN_SPEC,
     "gradus.ladderText",
     "gradus.conditions",
+    SIMULATE,
+    SHOW_SCAN,
+    HIDE_SCAN,
     EXPLAIN,
     "gradus.report",
 ];
@@ -46,6 +53,12 @@ pub const ALL: [&str; 7] = [
 pub enum Command {
     /// Something about the ladder at an address.
     Ladder(Uri, LadderCommand),
+    /// Show the scans of the scenario at an address.
+    Simulate(Uri),
+    /// Show, in ladder and spec, a scan of the scenario at an address.
+    ShowScan(Uri, Wanted),
+    /// Show no scan any more.
+    HideScan,
     /// The page of a code.
     Explain(Code),
     /// What to tell about a fault.
@@ -68,6 +81,8 @@ pub enum LadderCommand {
 struct Argument {
     uri: Uri,
     accept: Option<Word>,
+    line: Option<u32>,
+    scan: Option<u64>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -85,6 +100,7 @@ pub fn read(params: ExecuteCommandParams) -> Result<Command> {
     let wrong = |what: String| Error::invalid_params(format!("{name}: {what}"));
     match name.as_str() {
         "gradus.report" => return Ok(Command::Report),
+        HIDE_SCAN => return Ok(Command::HideScan),
         EXPLAIN => {
             let text = first.as_ref().and_then(Value::as_str).unwrap_or_default();
             let code = Code::parse(text);
@@ -99,6 +115,15 @@ pub fn read(params: ExecuteCommandParams) -> Result<Command> {
         serde_json::from_value(argument).map_err(|error| wrong(error.to_string()))
     };
     let (uri, command) = match name.as_str() {
+        SIMULATE => return Ok(Command::Simulate(argument()?.uri)),
+        SHOW_SCAN => {
+            let argument = argument()?;
+            let number = argument.scan.map(Wanted::Number);
+            let wanted = number.or(argument.line.map(Wanted::EndOfLine));
+            let wanted =
+                wanted.ok_or_else(|| wrong("missing field `line` or `scan`".to_owned()))?;
+            return Ok(Command::ShowScan(argument.uri, wanted));
+        }
         "gradus.convert" => {
             let argument = argument()?;
             let accept = match argument.accept {

@@ -9,7 +9,8 @@ use tower_lsp::ls_types::{
     MarkupKind, Position, TextEdit, Uri,
 };
 
-use crate::lsp::query::Query;
+use crate::input::LADDER_ENDINGS;
+use crate::lsp::query::{Query, Text};
 
 /// What an item remembers, so that its documentation can be made later: most
 /// items are never looked at.
@@ -29,15 +30,16 @@ const MOST: usize = 1000;
 pub fn answer(query: &Query, at: Position) -> Option<CompletionResponse> {
     let offset = query.offset(at);
     let pair = query.pair();
-    let completions = match query.spec() {
-        Some(spec) => ide::complete_in_spec(
-            spec,
-            pair.ladder().map(|it| &**it),
-            offset,
-            query.weakest(),
-            &query.budget,
-        ),
-        None => ide::complete_in_ladder(query.document.ladder()?, offset),
+    let both = pair.looked_at();
+    let completions = match query.text() {
+        Some(Text::Spec(spec)) => {
+            ide::complete_in_spec(spec, both.ladder, offset, query.weakest(), &query.budget)
+        }
+        Some(Text::Scenario(scenario)) => {
+            let files = files(query);
+            ide::complete_in_scenario(scenario, both, &files, offset)
+        }
+        _ => ide::complete_in_ladder(query.document.ladder()?, offset),
     }?;
     let span = completions.span;
     let text = query.document.rope.byte_slice(span.range()).to_string();
@@ -96,6 +98,22 @@ pub fn answer(query: &Query, at: Position) -> Option<CompletionResponse> {
     }))
 }
 
+/// The files that a scenario may run on: ladders and specs in its folder.
+fn files(query: &Query) -> Vec<String> {
+    let endings = LADDER_ENDINGS.iter().chain(&["grafcet"]);
+    let in_folder = endings.flat_map(|it| query.world.disk.in_folder(&query.document.key, it));
+    let mut names: Vec<String> = in_folder.map(|key| key.name()).collect();
+    names.extend(
+        query
+            .world
+            .open_beside(&query.document.key)
+            .map(|it| it.key.name()),
+    );
+    names.sort();
+    names.dedup();
+    names
+}
+
 /// What a variable is, for the item that remembers it.
 pub fn documentation(query: &Query, remembered: &Remembered) -> Option<Documentation> {
     let pair = query.pair();
@@ -121,5 +139,6 @@ fn kind(kind: CompletionKind) -> CompletionItemKind {
         CompletionKind::Step => CompletionItemKind::FIELD,
         CompletionKind::State => CompletionItemKind::ENUM_MEMBER,
         CompletionKind::Line => CompletionItemKind::EVENT,
+        CompletionKind::File => CompletionItemKind::FILE,
     }
 }

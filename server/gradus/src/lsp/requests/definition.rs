@@ -7,15 +7,23 @@ use crate::lsp::query::Query;
 
 /// Where the thing at a position gets its value or its meaning.
 pub fn definition(query: &Query, at: Position) -> Option<GotoDefinitionResponse> {
-    let (pair, side) = (query.pair(), query.side()?);
-    let jump = navigate::definition(pair.looked_at(), side, query.offset(at))?;
+    let (pair, offset) = (query.pair(), query.offset(at));
+    let pair = pair.looked_at();
+    let jump = match query.scenario() {
+        Some(scenario) => navigate::definition_in_scenario(scenario, pair, offset)?,
+        None => navigate::definition(pair, query.side()?, offset)?,
+    };
     said(query, &jump)
 }
 
 /// Where the thing at a position is declared.
 pub fn declaration(query: &Query, at: Position) -> Option<GotoDefinitionResponse> {
-    let (pair, side) = (query.pair(), query.side()?);
-    let jump = navigate::declaration(pair.looked_at(), side, query.offset(at))?;
+    let (pair, offset) = (query.pair(), query.offset(at));
+    let pair = pair.looked_at();
+    let jump = match query.scenario() {
+        Some(scenario) => navigate::declaration_in_scenario(scenario, pair, offset)?,
+        None => navigate::declaration(pair, query.side()?, offset)?,
+    };
     said(query, &jump)
 }
 

@@ -4,7 +4,7 @@ use ide::Extent;
 use tower_lsp::ls_types::{Position, Range, TextEdit};
 
 use crate::lsp::edit::text_edits;
-use crate::lsp::query::Query;
+use crate::lsp::query::{Query, Text};
 
 /// The edits that lay a whole document out.
 pub fn document(query: &Query) -> Option<Vec<TextEdit>> {
@@ -24,9 +24,10 @@ pub fn on_type(query: &Query, at: Position) -> Option<Vec<TextEdit>> {
 }
 
 fn edits(query: &Query, extent: Extent) -> Option<Vec<TextEdit>> {
-    let edits = match query.spec() {
-        Some(spec) => ide::lay_out_spec(spec, extent),
-        None => ide::lay_out_ladder(query.ladder()?, extent)?,
+    let edits = match query.text()? {
+        Text::Ladder(ladder) => ide::lay_out_ladder(ladder, extent)?,
+        Text::Spec(spec) => ide::lay_out_spec(spec, extent),
+        Text::Scenario(scenario) => ide::lay_out_scenario(scenario, extent),
     };
     Some(text_edits(&query.document.rope, &edits, query.encoding()))
 }

@@ -7,11 +7,18 @@ use crate::lsp::query::Query;
 
 /// The places of the thing at a position, in the same document.
 pub fn answer(query: &Query, at: Position) -> Option<Vec<DocumentHighlight>> {
-    let (pair, side) = (query.pair(), query.side()?);
-    let found = navigate::highlights(pair.looked_at(), side, query.offset(at));
-    let shown = found.iter().map(|it| DocumentHighlight {
-        range: query.range(it.span),
-        kind: Some(match it.access {
+    let (pair, offset) = (query.pair(), query.offset(at));
+    let pair = pair.looked_at();
+    let found = match query.scenario() {
+        Some(scenario) => navigate::highlights_in_scenario(scenario, pair, offset),
+        None => {
+            let found = navigate::highlights(pair, query.side()?, offset).into_iter();
+            found.map(|it| (it.span, it.access)).collect()
+        }
+    };
+    let shown = found.iter().map(|(span, access)| DocumentHighlight {
+        range: query.range(*span),
+        kind: Some(match access {
             Access::Declared => DocumentHighlightKind::TEXT,
             Access::Read => DocumentHighlightKind::READ,
             Access::Written => DocumentHighlightKind::WRITE,

@@ -3,23 +3,25 @@
 use ide::Target;
 use tower_lsp::ls_types::{Hover, HoverContents, MarkupContent, MarkupKind, Position};
 
-use crate::lsp::query::{Pair, Query};
+use crate::lsp::query::{Pair, Query, Text};
 use crate::lsp::virtual_document::{self, Page};
 
 /// What is known of the thing at a position.
 pub fn answer(query: &Query, at: Position) -> Option<Hover> {
     let offset = query.offset(at);
     let pair = query.pair();
-    let hover = match query.spec() {
-        Some(spec) => {
-            ide::hover_in_spec(spec, pair.ladder().map(|it| &**it), offset, &query.budget)
+    let both = pair.looked_at();
+    let hover = match query.text()? {
+        Text::Ladder(ladder) => ide::hover_in_ladder(ladder, both.spec, offset, &query.budget),
+        Text::Spec(spec) => ide::hover_in_spec(spec, both.ladder, offset, &query.budget),
+        Text::Scenario(scenario) => {
+            let (plant, run) = query.run()?;
+            let own = ide::RunOn {
+                run_on: plant.run_on(),
+                run: &run,
+            };
+            ide::hover_in_scenario(scenario, both, own, offset, &query.budget)
         }
-        None => ide::hover_in_ladder(
-            query.ladder()?,
-            pair.spec().map(|it| &**it),
-            offset,
-            &query.budget,
-        ),
     }?;
     let (kind, value) = match query.world.abilities.markdown {
         true => (

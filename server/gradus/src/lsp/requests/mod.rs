@@ -18,6 +18,7 @@ pub mod references;
 pub mod rename;
 pub mod selection;
 pub mod signature_help;
+pub mod simulate;
 pub mod symbols;
 pub mod tokens;
 pub mod workspace_diagnostic;

@@ -1,19 +1,22 @@
 //! `textDocument/documentSymbol` and `workspace/symbol`.
 
-use ide::symbols::{Symbol, SymbolKind as Kind, rank, symbols_of_ladder, symbols_of_spec};
+use ide::symbols::{
+    Symbol, SymbolKind as Kind, rank, symbols_of_ladder, symbols_of_scenario, symbols_of_spec,
+};
 use tower_lsp::ls_types::{
     DocumentSymbol, DocumentSymbolResponse, Location, SymbolInformation, SymbolKind,
     WorkspaceSymbolResponse,
 };
 
-use crate::lsp::query::Query;
+use crate::lsp::query::{Query, Text};
 use crate::lsp::world::World;
 
 /// Everything that the document holds: a tree where the client has trees.
 pub fn of_document(query: &Query) -> Option<DocumentSymbolResponse> {
-    let symbols = match query.spec() {
-        Some(spec) => symbols_of_spec(spec),
-        None => symbols_of_ladder(query.ladder()?),
+    let symbols = match query.text()? {
+        Text::Ladder(ladder) => symbols_of_ladder(ladder),
+        Text::Spec(spec) => symbols_of_spec(spec),
+        Text::Scenario(scenario) => symbols_of_scenario(scenario),
     };
     if query.world.abilities.symbol_trees {
         let tree = symbols.iter().map(|it| tree(query, it)).collect();
@@ -112,7 +115,7 @@ fn shown(name: &str) -> String {
 /// What comes nearest among the kinds of the protocol.
 fn kind(kind: Kind) -> SymbolKind {
     match kind {
-        Kind::Program | Kind::Grafcet => SymbolKind::MODULE,
+        Kind::Program | Kind::Grafcet | Kind::Scenario => SymbolKind::MODULE,
         Kind::Routine => SymbolKind::FUNCTION,
         Kind::Rung => SymbolKind::OPERATOR,
         Kind::State => SymbolKind::ENUM_MEMBER,
@@ -123,7 +126,7 @@ fn kind(kind: Kind) -> SymbolKind {
         Kind::Part => SymbolKind::CLASS,
         Kind::Section => SymbolKind::NAMESPACE,
         Kind::Step => SymbolKind::ENUM_MEMBER,
-        Kind::Transition => SymbolKind::EVENT,
+        Kind::Transition | Kind::ScenarioStep => SymbolKind::EVENT,
         Kind::Action => SymbolKind::METHOD,
         Kind::Rule => SymbolKind::PROPERTY,
     }

@@ -1,13 +1,14 @@
 //! `textDocument/semanticTokens`: what each name is, for colouring.
 
 use ide::tokens::{Mark, Token, TokenKind, tokens_in_ladder, tokens_in_spec};
+use ide::tokens_in_scenario;
 use source::Span;
 use tower_lsp::ls_types::{
     Position, Range, SemanticToken, SemanticTokenModifier, SemanticTokenType, SemanticTokens,
     SemanticTokensLegend,
 };
 
-use crate::lsp::query::Query;
+use crate::lsp::query::{Query, Text};
 
 /// What the numbers in tokens mean.
 pub fn legend() -> SemanticTokensLegend {
@@ -35,10 +36,11 @@ pub fn range(query: &Query, range: Range) -> Option<SemanticTokens> {
 }
 
 fn tokens(query: &Query) -> Option<Vec<Token>> {
-    match query.spec() {
-        Some(spec) => Some(tokens_in_spec(spec)),
-        None => Some(tokens_in_ladder(query.ladder()?)),
-    }
+    Some(match query.text()? {
+        Text::Ladder(ladder) => tokens_in_ladder(ladder),
+        Text::Spec(spec) => tokens_in_spec(spec),
+        Text::Scenario(scenario) => tokens_in_scenario(scenario, query.pair().looked_at()),
+    })
 }
 
 /// The tokens as the protocol has them: each place relative to the one before,
