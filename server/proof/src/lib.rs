@@ -78,7 +78,7 @@ mod trace;
 
 pub use check::check;
 pub use compare::{Comparison, compare};
-pub use cone::Cone;
+pub use cone::{Cone, Touched};
 pub use export::{aiger, blif};
 pub use gates::Gates;
 pub use limits::{Limits, Why};

@@ -1,0 +1,52 @@
+use std::fmt::{self, Display, Formatter};
+
+use logic::Name;
+
+/// Why a program cannot be translated.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Refusal {
+    /// A jump leads backwards: how often rungs are solved in a scan is not known.
+    BackwardJump(Name),
+    /// Calls and jumps unfold into too many visits of rungs.
+    TooManyVisits,
+    /// Definitions of blocks are solved in an order that is not that of their
+    /// units.
+    MixedDefinitions,
+    /// A variable is written under a name that cannot be told: the text of it.
+    UnknownTarget(Name),
+    /// An index stands within an index: the text.
+    NestedIndex(Name),
+    /// A term is also the name of a variable: the text.
+    AmbiguousTerm(Name),
+    /// The values of the variables do not settle within the limits.
+    TooManyValues,
+    /// More gates than the limits allow.
+    TooLarge,
+    /// Somebody asked to stop.
+    Cancelled,
+}
+
+impl Display for Refusal {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::BackwardJump(label) => write!(
+                f,
+                "a jump leads backwards to `{label}`, so how often rungs are solved in a scan is not known"
+            ),
+            Self::TooManyVisits => f.write_str("calls and jumps unfold into too many rungs"),
+            Self::MixedDefinitions => {
+                f.write_str("the routines of block definitions are mixed up with each other")
+            }
+            Self::UnknownTarget(name) => {
+                write!(f, "`{name}` is written, and its index is not followed")
+            }
+            Self::NestedIndex(name) => write!(f, "`{name}` has an index within an index"),
+            Self::AmbiguousTerm(name) => write!(f, "`{name}` is a term and a variable"),
+            Self::TooManyValues => f.write_str("the values of its numbers do not settle"),
+            Self::TooLarge => f.write_str("it has more gates than the limits allow"),
+            Self::Cancelled => f.write_str("stopped"),
+        }
+    }
+}
+
+impl std::error::Error for Refusal {}
