@@ -74,6 +74,7 @@ mod report;
 mod runs;
 mod signal;
 mod solver;
+mod supposed;
 mod trace;
 
 pub use check::check;
@@ -86,6 +87,7 @@ pub use netlist::{Initial, Input, Latch, Netlist, Output};
 pub use place::Placed;
 pub use report::{Difference, Proof, Report, Status, Verdict};
 pub use signal::Signal;
+pub use supposed::Supposed;
 pub use trace::{Replay, Trace, replay};
 
 #[cfg(test)]

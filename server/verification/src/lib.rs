@@ -1,4 +1,5 @@
 //! Whether a grafcet does what its ladder does.
+pub mod chart;
 mod compared;
 pub mod inputs;
 pub mod program;

@@ -36,17 +36,6 @@ impl Value {
         }
     }
 
-    /// The value itself, if there is only one.
-    pub fn as_constant(&self) -> Option<Datum> {
-        match self {
-            Self::Known(all) => match all.as_slice() {
-                [(value, _)] => Some(*value),
-                _ => None,
-            },
-            Self::Unknown(_) => None,
-        }
-    }
-
     /// The signal that says whether it is on, if it is nothing but on or off.
     fn as_bit(&self) -> Option<Signal> {
         match self {
@@ -102,28 +91,6 @@ impl Value {
             }
         }
         Some(net.any(&equal))
-    }
-
-    /// Whether nothing tells it apart from another, the kind of number included.
-    pub fn is_same(&self, other: &Self, net: &mut Netlist) -> Signal {
-        match (self, other) {
-            (Self::Unknown(one), Self::Unknown(two)) => Signal::constant(one == two),
-            (Self::Known(own), Self::Known(others)) => {
-                if let (Some(one), Some(two)) = (self.as_bit(), other.as_bit()) {
-                    return net.equal(one, two);
-                }
-                let mut same = Vec::new();
-                for (one, when) in own {
-                    for (two, also) in others {
-                        if one.key() == two.key() {
-                            same.push(net.and(*when, *also));
-                        }
-                    }
-                }
-                net.any(&same)
-            }
-            _ => Signal::FALSE,
-        }
     }
 }
 

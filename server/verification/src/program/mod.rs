@@ -21,7 +21,7 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 
 use grafcet::Spec;
 use ladder::flow::{Guard, GuardSet, Order, execution};
-use ladder::scan::{Machine, Names};
+use ladder::scan::{Kind, Machine, Names, bit_of_word};
 use ladder::{Class, ElementKind, Program, Routine};
 use logic::{Cancel, Datum, Name};
 use petgraph::graph::NodeIndex;
@@ -31,7 +31,7 @@ use source::codes;
 use self::flow::{Power, Solved};
 use self::knowledge::Knowledge;
 use self::memory::Memories;
-use self::store::{Given, Store};
+use self::store::{Frees, Given, Store};
 use crate::compared;
 use crate::inputs::Inputs;
 use crate::refusal::Refusal;
@@ -49,6 +49,7 @@ pub struct Followed {
     pub inputs: Inputs,
     names: Names,
     values: BTreeMap<Name, Value>,
+    frees: Frees,
     /// What it calls variables by their addresses.
     addresses: HashMap<String, Name>,
 }
@@ -88,7 +89,7 @@ pub fn follow(
     }
     for _ in 0..MOST_PASSES {
         let _ = knowledge.take_learnt();
-        let store = Store::new(machine.names().clone(), &given, &mut knowledge);
+        let store = Store::new(machine.names(), &given, &mut knowledge);
         let mut pass = Pass {
             program,
             store,
@@ -106,13 +107,14 @@ pub fn follow(
         } = pass;
         memories.end(&mut store);
         store.end();
-        let (netlist, inputs, names, values) = store.into_values();
+        let (netlist, inputs, values, frees) = store.into_values();
         if !knowledge.take_learnt() {
             return Ok(Followed {
                 netlist,
                 inputs,
-                names,
+                names: machine.names().clone(),
                 values,
+                frees,
                 addresses: addresses(program),
             });
         }
@@ -330,9 +332,27 @@ impl Followed {
         self.values.keys()
     }
 
-    /// What a variable holds when the scan has ended. `None` if the ladder
-    /// never looks at it.
+    /// What a variable holds when the scan has ended, called by name or address.
+    /// `None` if the ladder never looks at it.
     pub(crate) fn value(&self, name: &str) -> Option<&Value> {
         self.values.get(&self.resolved(name))
+    }
+
+    /// The same of a bit of a word that is looked at as a whole.
+    pub(crate) fn bit(&self, name: &str) -> Option<(&Value, u32)> {
+        let name = self.resolved(name);
+        let (word, bit) = bit_of_word(&name)?;
+        Some((self.values.get(word)?, bit))
+    }
+
+    /// What stands for a text that depends on these unknown numbers.
+    pub(crate) fn free(&self, text: &str, unknowns: &[usize]) -> Option<Signal> {
+        let key = (text.to_owned(), unknowns.to_vec());
+        self.frees.get(&key).copied()
+    }
+
+    /// The declared type of a variable.
+    pub(crate) fn kind(&self, name: &str) -> Option<Kind> {
+        self.names.kind(&self.resolved(name))
     }
 }

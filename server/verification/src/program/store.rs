@@ -27,6 +27,9 @@ struct Kept {
     latch: Signal,
 }
 
+/// What stands for texts that depend on numbers that are not followed.
+pub(crate) type Frees = HashMap<(String, Vec<usize>), Signal>;
+
 /// What the program says before anything is followed.
 #[derive(Debug, Default)]
 pub(super) struct Given {
@@ -42,7 +45,7 @@ pub(super) struct Given {
 pub(super) struct Store<'k> {
     pub(super) net: Netlist,
     pub(super) inputs: Inputs,
-    pub(super) names: Names,
+    pub(super) names: &'k Names,
     given: &'k Given,
     knowledge: &'k mut Knowledge,
     now: BTreeMap<Name, Value>,
@@ -53,11 +56,11 @@ pub(super) struct Store<'k> {
     unknowns: usize,
     bits_of: BTreeSet<Name>,
     /// Names for what is free and is no variable.
-    frees: HashMap<(String, Vec<usize>), Signal>,
+    frees: Frees,
 }
 
 impl<'k> Store<'k> {
-    pub(super) fn new(names: Names, given: &'k Given, knowledge: &'k mut Knowledge) -> Self {
+    pub(super) fn new(names: &'k Names, given: &'k Given, knowledge: &'k mut Knowledge) -> Self {
         Self {
             net: Netlist::default(),
             inputs: Inputs::default(),
@@ -594,44 +597,33 @@ impl<'k> Store<'k> {
         let mut new: Vec<(Datum, Signal)> = new.copied().collect();
         let is_bit = |value: &Datum| matches!(value, Datum::Bool(_));
         if !new.iter().all(|(value, _)| is_bit(value)) && domain.len() > 1 {
-            new.retain(|(_, when)| self.can_be(name, *when));
+            self.keep_possible(name, &mut new);
         }
         for (value, _) in new {
             self.knowledge.holds(name, value);
         }
     }
 
-    /// Whether a signal is not plainly 0 for every value that the variable can
-    /// have when the scan begins.
-    fn can_be(&self, name: &Name, signal: Signal) -> bool {
-        let own: Vec<Signal> = self
-            .kept
-            .iter()
-            .filter(|it| it.variable == *name)
-            .map(|it| it.latch)
-            .collect();
-        own.iter().any(|&chosen| {
-            let mut net = Netlist::default();
-            let inputs: Vec<Signal> = self
-                .net
-                .inputs()
-                .iter()
-                .map(|it| net.input(it.name.clone()))
-                .collect();
-            let latches = self.net.latches().iter().enumerate().map(|(at, latch)| {
-                match own.contains(&latch.signal) {
-                    true => Signal::constant(latch.signal == chosen),
-                    false => net.input(format!("latch {at}")),
-                }
-            });
-            let latches: Vec<Signal> = latches.collect();
-            net.place(&self.net, &inputs, &latches).of(signal) != Signal::FALSE
-        })
+    /// Keeps the cases that are not plainly impossible for every value that the
+    /// variable can have when the scan begins.
+    fn keep_possible(&self, name: &Name, cases: &mut Vec<(Datum, Signal)>) {
+        let own = self.kept.iter().filter(|it| it.variable == *name);
+        let own: Vec<Signal> = own.map(|it| it.latch).collect();
+        let mut is_possible = vec![false; cases.len()];
+        for chosen in &own {
+            let leaves = own.iter().map(|latch| (*latch, latch == chosen));
+            let known = self.net.suppose(leaves);
+            for ((_, when), possible) in cases.iter().zip(&mut is_possible) {
+                *possible |= known.of(*when) != Some(false);
+            }
+        }
+        let mut possible = is_possible.into_iter();
+        cases.retain(|_| possible.next().unwrap_or(true));
     }
 
     /// What everything holds now.
-    pub(super) fn into_values(self) -> (Netlist, Inputs, Names, BTreeMap<Name, Value>) {
-        (self.net, self.inputs, self.names, self.now)
+    pub(super) fn into_values(self) -> (Netlist, Inputs, BTreeMap<Name, Value>, Frees) {
+        (self.net, self.inputs, self.now, self.frees)
     }
 }
 

@@ -8,6 +8,14 @@ mod random;
 #[path = "../../../ladder/tests/against_c/text.rs"]
 mod text;
 
+#[path = "../../../grafcet/tests/evolution/charts.rs"]
+#[allow(dead_code)]
+mod plain;
+#[path = "../../../grafcet/tests/random/mod.rs"]
+#[allow(dead_code)]
+mod specs;
+
 mod beside;
+mod charts;
 mod corpus;
 mod ladders;
