@@ -23,7 +23,9 @@ impl Pass<'_> {
         self.on_events(state);
         let situation = state.active.clone();
         // The initial situation is activated by the first scan.
-        let before = situation.iter().map(|on| self.netlist.and(*on, !latches.first()));
+        let before = situation
+            .iter()
+            .map(|on| self.netlist.and(*on, !latches.first()));
         let before: Vec<Signal> = before.collect();
         self.settle(state, &situation);
         self.tell(state, &before);
@@ -168,7 +170,9 @@ impl Pass<'_> {
         let net = self.net;
         self.edges.fill(Signal::FALSE);
         for circle in &net.continuous {
-            let places = circle.iter().flat_map(|output| output.edges.iter().copied());
+            let places = circle
+                .iter()
+                .flat_map(|output| output.edges.iter().copied());
             let places: Vec<usize> = places.collect();
             self.sample(places, state);
             let mut values = Vec::new();

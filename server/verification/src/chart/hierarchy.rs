@@ -35,7 +35,10 @@ impl Pass<'_> {
     pub(super) fn settle(&mut self, state: &mut State, before: &[Signal]) {
         let net = self.net;
         let is_plain = net.steps.iter().all(|step| step.kind == Kind::Plain);
-        if is_plain && net.parts.iter().all(|part| part.enclosed_by.is_empty()) && net.orders.is_empty() {
+        if is_plain
+            && net.parts.iter().all(|part| part.enclosed_by.is_empty())
+            && net.orders.is_empty()
+        {
             return;
         }
         let mut opened = before.to_vec();
@@ -55,7 +58,8 @@ impl Pass<'_> {
     /// `opened`, which is brought up to date.
     fn open(&mut self, state: &mut State, opened: &mut [Signal]) {
         let net = self.net;
-        let is_enclosing = |step: &&grafcet::evolution::Step| matches!(step.kind, Kind::Enclosing(_));
+        let is_enclosing =
+            |step: &&grafcet::evolution::Step| matches!(step.kind, Kind::Enclosing(_));
         // Each round opens what lies one level further in.
         for _ in 0..net.steps.iter().filter(is_enclosing).count() {
             for (at, step) in net.steps.iter().enumerate() {

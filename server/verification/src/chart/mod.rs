@@ -18,8 +18,8 @@ mod storing;
 
 use std::collections::BTreeMap;
 
-use grafcet::evolution::{Machine, Net};
 use grafcet::Spec;
+use grafcet::evolution::{Machine, Net};
 use logic::{Datum, Name};
 use proof::{Netlist, Signal};
 
@@ -63,10 +63,16 @@ pub fn follow(
 ) -> Result<Evolved, Refusal> {
     let net = Net::of(&spec.grafcet);
     let start = Machine::new(&spec.grafcet);
-    let initial: Vec<bool> = net.steps.iter().map(|step| start.is_active(&step.name)).collect();
+    let initial: Vec<bool> = net
+        .steps
+        .iter()
+        .map(|step| start.is_active(&step.name))
+        .collect();
     let mut numbers: BTreeMap<Name, Vec<Datum>> = BTreeMap::new();
     for (name, constant) in compared::constants(spec) {
-        let known = numbers.entry(name).or_insert_with(|| vec![Datum::Integer(0)]);
+        let known = numbers
+            .entry(name)
+            .or_insert_with(|| vec![Datum::Integer(0)]);
         known.push(constant);
     }
     let mut domains: Domains = vec![vec![Datum::default()]; net.variables.len()];
@@ -91,9 +97,18 @@ pub fn follow(
             return Ok(Evolved {
                 netlist: pass.netlist,
                 inputs: pass.inputs,
-                active: net.steps.iter().map(|step| step.name.clone()).zip(state.active).collect(),
+                active: net
+                    .steps
+                    .iter()
+                    .map(|step| step.name.clone())
+                    .zip(state.active)
+                    .collect(),
                 unstable,
-                outputs: net.outputs.iter().map(|at| net.variables[*at].clone()).collect(),
+                outputs: net
+                    .outputs
+                    .iter()
+                    .map(|at| net.variables[*at].clone())
+                    .collect(),
                 names: net.variables.iter().cloned().zip(0..).collect(),
                 values: state.values,
             });

@@ -50,9 +50,11 @@ impl Pass<'_> {
                     (None, Value::Known(_)) => Signal::FALSE,
                 }
             }
-            Condition::Comparison { left, relation, right } => {
-                self.compares(left, *relation, right, state)
-            }
+            Condition::Comparison {
+                left,
+                relation,
+                right,
+            } => self.compares(left, *relation, right, state),
             Condition::Edge(at) => self.edges[*at],
             Condition::Elapsed { time, step } => match self.elapsed.get(&(*step, *time)) {
                 Some(passed) => {

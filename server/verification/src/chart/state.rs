@@ -54,11 +54,15 @@ impl Pass<'_> {
         let steps = net.steps.iter().zip(initial);
         let active = steps.map(|(step, on)| self.netlist.latch(step.name.clone(), *on));
         let active: Vec<Signal> = active.collect();
-        let looked_at = (1..=net.edges.len())
-            .map(|at| self.netlist.latch(format!("edge {at} of the grafcet"), false));
+        let looked_at = (1..=net.edges.len()).map(|at| {
+            self.netlist
+                .latch(format!("edge {at} of the grafcet"), false)
+        });
         let looked_at: Vec<Signal> = looked_at.collect();
-        let obeyed = (1..=net.orders.len())
-            .map(|at| self.netlist.latch(format!("order {at} of the grafcet"), false));
+        let obeyed = (1..=net.orders.len()).map(|at| {
+            self.netlist
+                .latch(format!("order {at} of the grafcet"), false)
+        });
         let obeyed: Vec<Signal> = obeyed.collect();
         let mut latches = Latches {
             first,
@@ -130,9 +134,15 @@ impl Pass<'_> {
         for transition in &net.transitions {
             times_in(&transition.receptivity, &mut times);
         }
-        net.edges.iter().for_each(|edge| times_in(&edge.of, &mut times));
-        net.stored.iter().for_each(|it| times_in(&it.condition, &mut times));
-        net.orders.iter().for_each(|it| times_in(&it.condition, &mut times));
+        net.edges
+            .iter()
+            .for_each(|edge| times_in(&edge.of, &mut times));
+        net.stored
+            .iter()
+            .for_each(|it| times_in(&it.condition, &mut times));
+        net.orders
+            .iter()
+            .for_each(|it| times_in(&it.condition, &mut times));
         let acts = net.continuous.iter().flatten().flat_map(|it| &it.acts);
         acts.for_each(|(_, condition)| times_in(condition, &mut times));
         times.sort_unstable();
@@ -141,7 +151,10 @@ impl Pass<'_> {
         for (step, time_ms) in times.into_iter().rev() {
             let name = &net.steps[step].name;
             let text = format!("{time_ms}ms/{name}");
-            let source = Source::Elapsed { step: name.clone(), time_ms };
+            let source = Source::Elapsed {
+                step: name.clone(),
+                time_ms,
+            };
             let latch = self.netlist.latch(format!("{text} before"), false);
             let passes = self.inputs.free(&mut self.netlist, &text, source);
             let mut passed = self.netlist.or(passes, latch);
