@@ -46,6 +46,26 @@ pub struct Inputs {
 }
 
 impl Inputs {
+    /// The values of all variables, where the inputs of the netlist are these.
+    pub fn values(&self, row: &[bool]) -> Vec<(Name, Datum)> {
+        let mut values = Vec::new();
+        let mut numbers: BTreeMap<&Name, Datum> = BTreeMap::new();
+        for (source, on) in self.sources.iter().zip(row) {
+            match source {
+                Source::Bit(name) => values.push((name.clone(), (*on).into())),
+                Source::Choice { variable, value } if *on => {
+                    numbers.entry(variable).or_insert(*value);
+                }
+                _ => {}
+            }
+        }
+        for (name, rest) in &self.resting {
+            let value = numbers.get(name).unwrap_or(rest);
+            values.push((name.clone(), *value));
+        }
+        values
+    }
+
     fn add(&mut self, net: &mut Netlist, name: &str, source: Source) -> Signal {
         let signal = net.input(name);
         if net.inputs().len() > self.sources.len() {

@@ -12,9 +12,18 @@
 
 pub mod chart;
 mod compared;
+mod frame;
 pub mod inputs;
 pub mod program;
 mod refusal;
+mod rules;
+mod run;
+mod rungs;
+mod trace;
 mod value;
+mod verify;
 
 pub use refusal::Refusal;
+pub use rungs::{RungOf, rungs_of};
+pub use trace::{Step, Trace};
+pub use verify::{Difference, Reason, Timing, Verdict, Verification, What, verify};

@@ -18,6 +18,12 @@ pub enum Refusal {
     NestedIndex(Name),
     /// A term is also the name of a variable: the text.
     AmbiguousTerm(Name),
+    /// A rule without `@` speaks of what the ladder writes: the rule, the name.
+    RuleAboutOutput(Name, Name),
+    /// A rule or property speaks of the time of a step: its label.
+    RuleAboutTime(Name),
+    /// A rule or property speaks of a number that is not followed: its label.
+    RuleAboutNumber(Name),
     /// The values of the variables do not settle within the limits.
     TooManyValues,
     /// More gates than the limits allow.
@@ -42,6 +48,16 @@ impl Display for Refusal {
             }
             Self::NestedIndex(name) => write!(f, "`{name}` has an index within an index"),
             Self::AmbiguousTerm(name) => write!(f, "`{name}` is a term and a variable"),
+            Self::RuleAboutOutput(rule, name) => write!(
+                f,
+                "the rule `{rule}` speaks of `{name}`, which the ladder writes; a rule about outputs says with `@` what the plant does next"
+            ),
+            Self::RuleAboutTime(rule) => {
+                write!(f, "`{rule}` speaks of the time of a step, which is not followed")
+            }
+            Self::RuleAboutNumber(rule) => {
+                write!(f, "`{rule}` speaks of a number that is not followed")
+            }
             Self::TooManyValues => f.write_str("the values of its numbers do not settle"),
             Self::TooLarge => f.write_str("it has more gates than the limits allow"),
             Self::Cancelled => f.write_str("stopped"),

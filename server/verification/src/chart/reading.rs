@@ -1,7 +1,7 @@
 //! What conditions see.
 
 use grafcet::evolution::{Condition, Operand};
-use logic::{Datum, Expr, Name, Relation};
+use logic::{Expr, Name, Relation};
 use proof::{Gates, Signal};
 
 use super::Pass;
@@ -14,16 +14,10 @@ impl Pass<'_> {
     /// knows it, else an input.
     pub(super) fn read_from_outside(&mut self, at: usize) -> Value {
         let name: &Name = &self.net.variables[at];
-        if let Some(ladder) = self.ladder {
-            if let Some(value) = ladder.value(name) {
-                return value.clone();
-            }
-            if let Some((word, bit)) = ladder.bit(name) {
-                let bit = applied(&mut self.netlist, &[word], |word| {
-                    Datum::Bool(word[0].integer() >> bit & 1 == 1)
-                });
-                return bit.unwrap_or_else(|| self.unknown());
-            }
+        if let Some(ladder) = self.ladder.filter(|it| it.looks_at(name))
+            && let Some(value) = ladder.output(name, &mut self.netlist)
+        {
+            return value;
         }
         match self.numbers.get(name) {
             Some(compared) => {

@@ -17,7 +17,7 @@ mod knowledge;
 mod memory;
 mod store;
 
-use std::collections::{BTreeMap, HashMap, HashSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
 use grafcet::Spec;
 use ladder::flow::{Guard, GuardSet, Order, execution};
@@ -35,7 +35,7 @@ use self::store::{Frees, Given, Store};
 use crate::compared;
 use crate::inputs::Inputs;
 use crate::refusal::Refusal;
-use crate::value::Value;
+use crate::value::{Value, applied};
 
 /// So often a program is followed to find the values of its numbers.
 const MOST_PASSES: usize = 400;
@@ -50,6 +50,10 @@ pub struct Followed {
     names: Names,
     values: BTreeMap<Name, Value>,
     frees: Frees,
+    /// What it writes.
+    written: BTreeSet<Name>,
+    /// What it declares and never looks at holds its initial value.
+    untouched: HashMap<Name, Datum>,
     /// What it calls variables by their addresses.
     addresses: HashMap<String, Name>,
 }
@@ -115,6 +119,8 @@ pub fn follow(
                 names: machine.names().clone(),
                 values,
                 frees,
+                written: knowledge.written.into_keys().collect(),
+                untouched: untouched(program, &given),
                 addresses: addresses(program),
             });
         }
@@ -133,6 +139,12 @@ fn addresses(program: &Program) -> HashMap<String, Name> {
         }
     }
     addresses
+}
+
+fn untouched(program: &Program, given: &Given) -> HashMap<Name, Datum> {
+    let declared = program.declarations.iter().map(|it| &it.name);
+    let initial = |name: &Name| given.initial.get(name).copied().unwrap_or_default();
+    declared.map(|name| (name.clone(), initial(name))).collect()
 }
 
 fn given(program: &Program, machine: &Machine<'_>) -> Given {
@@ -310,7 +322,7 @@ fn backward(routine: &Routine, rung: usize, jump: NodeIndex) -> Refusal {
 impl Followed {
     /// The name that the ladder knows a variable by, which is called by its
     /// name or address.
-    fn resolved(&self, name: &str) -> Name {
+    pub(crate) fn resolved(&self, name: &str) -> Name {
         let own = self.names.resolved(name, &|_| None);
         if self.values.contains_key(&*own) {
             return (*own).into();
@@ -334,15 +346,44 @@ impl Followed {
 
     /// What a variable holds when the scan has ended, called by name or address.
     /// `None` if the ladder never looks at it.
-    pub(crate) fn value(&self, name: &str) -> Option<&Value> {
+    fn value(&self, name: &str) -> Option<&Value> {
         self.values.get(&self.resolved(name))
     }
 
     /// The same of a bit of a word that is looked at as a whole.
-    pub(crate) fn bit(&self, name: &str) -> Option<(&Value, u32)> {
+    fn bit(&self, name: &str) -> Option<(&Value, u32)> {
         let name = self.resolved(name);
         let (word, bit) = bit_of_word(&name)?;
         Some((self.values.get(word)?, bit))
+    }
+
+    /// Whether the ladder mentions or declares a variable.
+    pub(crate) fn knows(&self, name: &str) -> bool {
+        self.looks_at(name) || self.untouched.contains_key(&self.resolved(name))
+    }
+
+    /// Whether the ladder mentions a variable.
+    pub(crate) fn looks_at(&self, name: &str) -> bool {
+        self.value(name).is_some() || self.bit(name).is_some()
+    }
+
+    /// What an output holds when the scan has ended, bits of words and what the
+    /// ladder declares and never looks at included.
+    pub(crate) fn output(&self, name: &str, net: &mut Netlist) -> Option<Value> {
+        if let Some(value) = self.value(name) {
+            return Some(value.clone());
+        }
+        if let Some((word, bit)) = self.bit(name) {
+            let of = |word: &[Datum]| Datum::Bool(word[0].integer() >> bit & 1 == 1);
+            return Some(applied(net, &[word], of).unwrap_or(Value::Unknown(0)));
+        }
+        let value = self.untouched.get(&self.resolved(name))?;
+        Some(Value::constant(*value))
+    }
+
+    /// Whether the ladder writes the variable.
+    pub fn writes(&self, name: &str) -> bool {
+        self.written.contains(&self.resolved(name))
     }
 
     /// What stands for a text that depends on these unknown numbers.

@@ -152,7 +152,7 @@ impl<'k> Store<'k> {
         let values = match domain {
             Some(Domain::Values(values)) => values,
             Some(Domain::Unknown) => return self.unknown(),
-            None => return self.from_outside(name),
+            None => return self.given_from_outside(name),
         };
         let keep = |store: &mut Self, value: Datum, latch: Signal| {
             let variable = name.clone();
@@ -183,7 +183,7 @@ impl<'k> Store<'k> {
     }
 
     /// A variable that the program does not write.
-    fn from_outside(&mut self, name: &Name) -> Value {
+    fn given_from_outside(&mut self, name: &Name) -> Value {
         let kind = self.names.kind(name);
         if let Some(value) = self.given.constants.get(name) {
             return Value::constant(*value);
