@@ -41,9 +41,15 @@ impl Frame {
     fn settled(evolved: &Evolved, scans: usize) -> Self {
         let scan = &evolved.netlist;
         let mut netlist = Netlist::default();
-        let inputs = scan.inputs().iter().map(|it| netlist.input(it.name.clone()));
+        let inputs = scan
+            .inputs()
+            .iter()
+            .map(|it| netlist.input(it.name.clone()));
         let inputs: Vec<Signal> = inputs.collect();
-        let latches = scan.latches().iter().map(|it| netlist.latch(it.name.clone(), it.initial));
+        let latches = scan
+            .latches()
+            .iter()
+            .map(|it| netlist.latch(it.name.clone(), it.initial));
         let latches: Vec<Signal> = latches.collect();
         // Time passes in the first scan only.
         let passes = |source: &Source| matches!(source, Source::Event(_) | Source::Elapsed { .. });
@@ -73,7 +79,9 @@ impl Frame {
         }
         let (further, _) = run(&mut netlist, &now);
         let differ = now.iter().zip(&further);
-        let differ: Vec<Signal> = differ.map(|(one, other)| netlist.xor(*one, *other)).collect();
+        let differ: Vec<Signal> = differ
+            .map(|(one, other)| netlist.xor(*one, *other))
+            .collect();
         for (latch, next) in latches.iter().zip(&now) {
             netlist.set_next(*latch, *next);
         }

@@ -53,7 +53,10 @@ impl Display for Refusal {
                 "the rule `{rule}` speaks of `{name}`, which the ladder writes; a rule about outputs says with `@` what the plant does next"
             ),
             Self::RuleAboutTime(rule) => {
-                write!(f, "`{rule}` speaks of the time of a step, which is not followed")
+                write!(
+                    f,
+                    "`{rule}` speaks of the time of a step, which is not followed"
+                )
             }
             Self::RuleAboutNumber(rule) => {
                 write!(f, "`{rule}` speaks of a number that is not followed")

@@ -37,10 +37,10 @@ impl<'s> Atoms<'s> {
     /// Looks up all atoms of a rule.
     pub(crate) fn look_up_rule(&mut self, rule: &EnvironmentRule) -> Result<(), Refusal> {
         if !speaks_of_next(&rule.right) {
-            let mut names = Vec::new();
-            names_in(&rule.left, &mut names);
-            names_in(&rule.right, &mut names);
-            if let Some(name) = names.into_iter().find(|name| self.ladder.writes(name)) {
+            let names = names_of(&rule.left)
+                .into_iter()
+                .chain(names_of(&rule.right));
+            if let Some(name) = { names }.find(|name| self.ladder.writes(name)) {
                 return Err(Refusal::RuleAboutOutput(rule.name.clone(), name));
             }
         }
@@ -129,9 +129,15 @@ fn names_in(expr: &Expr, names: &mut Vec<Name>) {
     }
 }
 
-fn speaks_of_next(expr: &Expr) -> bool {
+/// The variables that an expression names.
+pub(crate) fn names_of(expr: &Expr) -> Vec<Name> {
     let mut names = Vec::new();
     names_in(expr, &mut names);
+    names
+}
+
+fn speaks_of_next(expr: &Expr) -> bool {
+    let names = names_of(expr);
     names.iter().any(|name| is_in_next_scan(name).is_some())
 }
 
@@ -161,11 +167,13 @@ impl Steps<'_> {
             Expr::Constant(value) => Signal::constant(*value),
             Expr::Not(inner) => !self.signal(inner, is_before),
             Expr::And(parts) => {
-                let parts: Vec<Signal> = parts.iter().map(|it| self.signal(it, is_before)).collect();
+                let parts: Vec<Signal> =
+                    parts.iter().map(|it| self.signal(it, is_before)).collect();
                 self.net().all(&parts)
             }
             Expr::Or(parts) => {
-                let parts: Vec<Signal> = parts.iter().map(|it| self.signal(it, is_before)).collect();
+                let parts: Vec<Signal> =
+                    parts.iter().map(|it| self.signal(it, is_before)).collect();
                 self.net().any(&parts)
             }
             Expr::Atom(Atom::Rise(inner)) => {
@@ -183,11 +191,17 @@ impl Steps<'_> {
                 let now = self.frame.of(known);
                 let is_marked = match atom {
                     Atom::Variable(name) => is_in_next_scan(name).is_some(),
-                    Atom::Comparison(it) => [&it.left, &it.right].iter().any(|it| is_in_next_scan(it).is_some()),
+                    Atom::Comparison(it) => [&it.left, &it.right]
+                        .iter()
+                        .any(|it| is_in_next_scan(it).is_some()),
                     _ => false,
                 };
                 match is_before && !is_marked {
-                    true => self.net().delayed(format!("{} before", Expr::Atom(atom.clone())), now, at_zero(expr)),
+                    true => self.net().delayed(
+                        format!("{} before", Expr::Atom(atom.clone())),
+                        now,
+                        at_zero(expr),
+                    ),
                     false => now,
                 }
             }

@@ -34,6 +34,8 @@ pub(crate) struct Run<'r> {
     grafcet: evolution::Machine,
     followed: &'r Followed,
     outputs: &'r [Name],
+    /// What is shown of the ladder besides.
+    watched: &'r [Name],
     /// What the grafcet reads from the ladder.
     read: Vec<Name>,
     timing: Timing,
@@ -46,7 +48,7 @@ impl<'r> Run<'r> {
         program: &'r Program,
         grafcet: &Grafcet,
         followed: &'r Followed,
-        outputs: &'r [Name],
+        [outputs, watched]: [&'r [Name]; 2],
         timing: Timing,
     ) -> Self {
         let machine = evolution::Machine::new(grafcet);
@@ -57,6 +59,7 @@ impl<'r> Run<'r> {
             grafcet: machine,
             followed,
             outputs,
+            watched,
             timing,
             before: Vec::new(),
         }
@@ -65,7 +68,10 @@ impl<'r> Run<'r> {
     /// Runs what the engines found. Times are chosen so that timers run out when
     /// they should, where there are such times.
     pub(crate) fn trace(&mut self, inputs: &Inputs, signals: &Signals) -> (Trace, End) {
-        let mut trace = Trace { timing: self.timing, steps: Vec::new() };
+        let mut trace = Trace {
+            timing: self.timing,
+            steps: Vec::new(),
+        };
         for row in &signals.inputs {
             let elapsed_ms = self.elapsed(inputs, row);
             let values = inputs.values(row);
@@ -80,6 +86,15 @@ impl<'r> Run<'r> {
             }
         }
         (trace, End::Steps(self.differences()))
+    }
+
+    /// The outputs that still differ after another step that changes no input
+    /// and takes no time; none if it does not come to an end.
+    pub(crate) fn after_another(&mut self) -> Vec<Name> {
+        match self.step(0) {
+            Ok(()) => self.differences(),
+            Err(_) => Vec::new(),
+        }
     }
 
     fn step(&mut self, elapsed_ms: u64) -> Result<(), End> {
@@ -142,16 +157,28 @@ impl<'r> Run<'r> {
 
     fn ladder_bits(&self) -> Vec<(Name, bool)> {
         let names = self.followed.variables();
-        names.map(|name| (name.clone(), self.ladder.is_on(name))).collect()
+        names
+            .map(|name| (name.clone(), self.ladder.is_on(name)))
+            .collect()
     }
 
     fn shown(&self, elapsed_ms: u64, inputs: Vec<(Name, Datum)>) -> Step {
-        let ladder = |name: &Name| (name.clone(), self.ladder.value(&self.followed.resolved(name)));
+        let ladder = |name: &Name| {
+            (
+                name.clone(),
+                self.ladder.value(&self.followed.resolved(name)),
+            )
+        };
         let grafcet = |name: &Name| (name.clone(), self.grafcet.value(name));
         Step {
             elapsed_ms,
             inputs,
-            ladder: self.outputs.iter().map(ladder).collect(),
+            ladder: self
+                .outputs
+                .iter()
+                .chain(self.watched)
+                .map(ladder)
+                .collect(),
             grafcet: self.outputs.iter().map(grafcet).collect(),
             active: self.grafcet.active().cloned().collect(),
         }

@@ -39,7 +39,12 @@ pub fn rungs_of(program: &Program, variable: &str) -> (Vec<RungOf>, usize) {
         }
         reads.push(read);
     }
-    let own: BTreeSet<usize> = writers.get(base(variable)).into_iter().flatten().copied().collect();
+    let own: BTreeSet<usize> = writers
+        .get(base(variable))
+        .into_iter()
+        .flatten()
+        .copied()
+        .collect();
     let mut cone = own.clone();
     let mut open: Vec<usize> = own.iter().copied().collect();
     while let Some(at) = open.pop() {

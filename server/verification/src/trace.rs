@@ -23,7 +23,8 @@ pub struct Step {
     pub elapsed_ms: u64,
     /// All inputs.
     pub inputs: Vec<(Name, Datum)>,
-    /// The outputs that are compared, as the ladder has them.
+    /// The outputs that are compared, as the ladder has them; behind them what
+    /// else of the ladder the properties speak of.
     pub ladder: Vec<(Name, Datum)>,
     /// The same, as the grafcet has them.
     pub grafcet: Vec<(Name, Datum)>,
@@ -41,10 +42,18 @@ impl Trace {
         let mut before: &[(Name, Datum)] = &[];
         let mut steps = Vec::new();
         for step in &self.steps {
-            let was = |name: &Name| before.iter().find(|(it, _)| it == name).map_or(Datum::default(), |(_, value)| *value);
+            let was = |name: &Name| {
+                before
+                    .iter()
+                    .find(|(it, _)| it == name)
+                    .map_or(Datum::default(), |(_, value)| *value)
+            };
             let changed = step.inputs.iter().filter(|(name, value)| {
                 let before = was(name);
-                before.key() != value.key() && !(before == Datum::default() && !value.is_on() && matches!(value, Datum::Bool(_)))
+                before.key() != value.key()
+                    && !(before == Datum::default()
+                        && !value.is_on()
+                        && matches!(value, Datum::Bool(_)))
             });
             let changes = changed.map(|(name, value)| Change {
                 name: name.clone(),

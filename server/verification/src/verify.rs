@@ -4,14 +4,14 @@ use grafcet::Spec;
 use grafcet::evolution::Unstable;
 use ladder::Program;
 use logic::Name;
-use proof::{Gates, Limits, Proof, Signal, Status, Verdict as Found, Why, check};
+use proof::{Gates, Limits, Netlist, Proof, Signal, Status, Verdict as Found, Why, check};
 
 use crate::chart::{self, Evolved};
 use crate::frame::Frame;
 use crate::inputs::Source;
 use crate::program::{self, Bounds, Followed};
 use crate::refusal::Refusal;
-use crate::rules::{Atoms, Steps};
+use crate::rules::{Atoms, Steps, names_of};
 use crate::run::{End, Run};
 use crate::trace::{Trace, simplified};
 use crate::value::Value;
@@ -36,12 +36,16 @@ impl Timing {
     }
 }
 
+/// Properties that are no outputs; no variable is called so.
+const UNSTABLE: &str = "(unstable)";
+const RESTLESS: &str = "(restless)";
+
 /// A scan of a grafcet is followed through this many evolutions, a settling of
 /// both sides through this many scans, at most.
 const MOST_ROUNDS: usize = 256;
 
 /// What was found about a ladder and its spec.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Verification {
     /// When outputs were compared.
     pub timing: Timing,
@@ -57,6 +61,10 @@ pub struct Verification {
     pub free: Vec<Source>,
     /// The environment rules allow no sequence of more steps than this.
     pub deadlock: Option<usize>,
+    /// The question as it was asked at last: the system, and as its properties
+    /// that the grafcet is unstable, that both never rest, that each output
+    /// differs, and those of the spec.
+    pub question: Netlist,
     /// How many states were counted, where the engine that decided counts them.
     pub states: Option<u128>,
 }
@@ -86,6 +94,8 @@ pub struct Difference {
     pub trace: Trace,
     /// Whether no shorter one shows anything.
     pub is_shortest: bool,
+    /// Whether it is over after another step with the same inputs.
+    pub is_brief: bool,
 }
 
 /// What happens in the last step of a sequence.
@@ -147,6 +157,8 @@ pub(crate) struct System {
     pub(crate) outputs: Vec<Name>,
     missing: Vec<Name>,
     numbers: Vec<Name>,
+    /// What the properties speak of, of the ladder and not compared.
+    watched: Vec<Name>,
     differ: Vec<Signal>,
     never: Vec<Signal>,
 }
@@ -192,6 +204,7 @@ impl<'v> Verifier<'v> {
                 missing: system.missing.clone(),
                 properties,
                 free: free(&system),
+                question: question(&system, self.spec),
                 outputs: system.outputs,
                 deadlock,
                 states,
@@ -200,7 +213,13 @@ impl<'v> Verifier<'v> {
     }
 
     fn system(&self) -> Result<System, Refusal> {
-        system(&self.followed, self.spec, self.timing, [self.evolutions, self.settling], &self.bounds)
+        system(
+            &self.followed,
+            self.spec,
+            self.timing,
+            [self.evolutions, self.settling],
+            &self.bounds,
+        )
     }
 
     /// Compares the outputs. `None` if more evolutions or scans must be
@@ -211,14 +230,9 @@ impl<'v> Verifier<'v> {
         system: &System,
     ) -> Result<Option<(Verdict, Option<u128>, Option<usize>)>, Refusal> {
         let frame = &system.frame;
-        let mut asked = frame.netlist.clone();
         let mut bad = vec![frame.unstable, frame.restless];
         bad.extend(&system.differ);
-        asked.never("unstable", frame.unstable);
-        asked.never("restless", frame.restless);
-        for (name, differ) in system.outputs.iter().zip(&system.differ) {
-            asked.never(name.clone(), *differ);
-        }
+        let asked = comparison(system);
         let report = check(&asked, self.limits);
         let verdict = match report.verdict {
             Found::Equivalent if !system.numbers.is_empty() => Verdict::Unknown {
@@ -226,28 +240,41 @@ impl<'v> Verifier<'v> {
                 why: Reason::Numbers(system.numbers.clone()),
             },
             Found::Equivalent => Verdict::Equivalent,
-            Found::Unknown { clean, why } => Verdict::Unknown { bound: clean, why: Reason::Limits(why) },
+            Found::Unknown { clean, why } => Verdict::Unknown {
+                bound: clean,
+                why: Reason::Limits(why),
+            },
             Found::Different(found) => {
                 let is_shortest = found.is_shortest();
                 let simple = simplified(&frame.netlist, &found.trace, &bad);
                 for signals in [&simple, &found.trace] {
-                    let (trace, end) = self.replayed(system, signals).0;
+                    let ((trace, end), mut run) = self.replayed(system, signals);
                     let what = match end {
                         End::Steps(names) if !names.is_empty() => What::Outputs(names),
                         End::Steps(_) => continue,
                         End::Unstable(unstable) => What::Unstable(unstable),
                         End::Restless => What::Restless,
                     };
-                    let difference = Difference { what, trace, is_shortest };
+                    let is_brief =
+                        matches!(what, What::Outputs(_)) && run.after_another().is_empty();
+                    let difference = Difference {
+                        what,
+                        trace,
+                        is_shortest,
+                        is_brief,
+                    };
                     return Ok(Some((Verdict::Different(difference), None, None)));
                 }
                 let is = |name: &str| found.properties.iter().any(|it| &**it == name);
-                let rounds = match (is("unstable"), is("restless")) {
+                let rounds = match (is(UNSTABLE), is(RESTLESS)) {
                     (true, _) => &mut self.evolutions,
                     (_, true) => &mut self.settling,
                     _ => {
                         let bound = found.clean;
-                        let verdict = Verdict::Unknown { bound, why: Reason::Unconfirmed };
+                        let verdict = Verdict::Unknown {
+                            bound,
+                            why: Reason::Unconfirmed,
+                        };
                         return Ok(Some((verdict, None, None)));
                     }
                 };
@@ -255,13 +282,19 @@ impl<'v> Verifier<'v> {
                 if *rounds <= MOST_ROUNDS {
                     return Ok(None);
                 }
-                Verdict::Unknown { bound: found.clean, why: Reason::Rounds }
+                Verdict::Unknown {
+                    bound: found.clean,
+                    why: Reason::Rounds,
+                }
             }
         };
-        let proofs = report.properties.iter().filter_map(|(_, status)| match status {
-            Status::Holds(proof) => Some(*proof),
-            _ => None,
-        });
+        let proofs = report
+            .properties
+            .iter()
+            .filter_map(|(_, status)| match status {
+                Status::Holds(proof) => Some(*proof),
+                _ => None,
+            });
         let (mut states, mut deadlock) = (None, None);
         for proof in proofs {
             match proof {
@@ -279,25 +312,42 @@ impl<'v> Verifier<'v> {
         asked.never("violated", bad);
         match check(&asked, self.limits).verdict {
             Found::Equivalent => Verdict::Equivalent,
-            Found::Unknown { clean, why } => Verdict::Unknown { bound: clean, why: Reason::Limits(why) },
+            Found::Unknown { clean, why } => Verdict::Unknown {
+                bound: clean,
+                why: Reason::Limits(why),
+            },
             Found::Different(found) => {
                 let is_shortest = found.is_shortest();
                 let simple = simplified(&system.frame.netlist, &found.trace, &[bad]);
                 for signals in [&simple, &found.trace] {
-                    let ((trace, end), run) = self.replayed(system, signals);
+                    let ((trace, end), mut run) = self.replayed(system, signals);
                     let condition = &self.spec.never[at].condition;
                     if matches!(end, End::Steps(_)) && run.holds(condition) {
-                        return Verdict::Different(Difference { what: What::Property, trace, is_shortest });
+                        run.after_another();
+                        return Verdict::Different(Difference {
+                            what: What::Property,
+                            trace,
+                            is_shortest,
+                            is_brief: !run.holds(condition),
+                        });
                     }
                 }
-                Verdict::Unknown { bound: found.clean, why: Reason::Unconfirmed }
+                Verdict::Unknown {
+                    bound: found.clean,
+                    why: Reason::Unconfirmed,
+                }
             }
         }
     }
 
-    fn replayed<'s>(&'s self, system: &'s System, signals: &proof::Trace) -> ((Trace, End), Run<'s>) {
+    fn replayed<'s>(
+        &'s self,
+        system: &'s System,
+        signals: &proof::Trace,
+    ) -> ((Trace, End), Run<'s>) {
         let grafcet = &self.spec.grafcet;
-        let mut run = Run::new(self.program, grafcet, &self.followed, &system.outputs, self.timing);
+        let shown = [system.outputs.as_slice(), system.watched.as_slice()];
+        let mut run = Run::new(self.program, grafcet, &self.followed, shown, self.timing);
         (run.trace(&system.evolved.inputs, signals), run)
     }
 }
@@ -329,18 +379,65 @@ pub(crate) fn system(
         }
     }
     let mut atoms = Atoms::new(followed, &mut evolved);
-    spec.environment.iter().try_for_each(|rule| atoms.look_up_rule(rule))?;
-    spec.never.iter().try_for_each(|it| atoms.look_up_property(it))?;
+    spec.environment
+        .iter()
+        .try_for_each(|rule| atoms.look_up_rule(rule))?;
+    spec.never
+        .iter()
+        .try_for_each(|it| atoms.look_up_property(it))?;
     let atoms = atoms.known();
     let mut frame = Frame::new(&evolved, timing, settling);
     let differ = differ.into_iter().map(|signal| frame.of(signal)).collect();
-    let mut steps = Steps { frame: &mut frame, atoms };
-    let rules: Vec<Signal> = spec.environment.iter().map(|rule| steps.rule(rule)).collect();
+    let mut steps = Steps {
+        frame: &mut frame,
+        atoms,
+    };
+    let rules: Vec<Signal> = spec
+        .environment
+        .iter()
+        .map(|rule| steps.rule(rule))
+        .collect();
     let never = spec.never.iter().map(|it| steps.property(it)).collect();
     for rule in rules {
         frame.netlist.constrain(rule);
     }
-    Ok(System { evolved, frame, outputs, missing, numbers, differ, never })
+    let mut watched: Vec<Name> = Vec::new();
+    for name in spec.never.iter().flat_map(|it| names_of(&it.condition)) {
+        let is_shown = outputs.contains(&name) || watched.contains(&name);
+        if followed.writes(&name) && !is_shown {
+            watched.push(name);
+        }
+    }
+    Ok(System {
+        evolved,
+        frame,
+        outputs,
+        missing,
+        numbers,
+        watched,
+        differ,
+        never,
+    })
+}
+
+/// The system with the comparison of outputs as its properties.
+fn comparison(system: &System) -> Netlist {
+    let mut asked = system.frame.netlist.clone();
+    asked.never(UNSTABLE, system.frame.unstable);
+    asked.never(RESTLESS, system.frame.restless);
+    for (name, differ) in system.outputs.iter().zip(&system.differ) {
+        asked.never(name.clone(), *differ);
+    }
+    asked
+}
+
+/// The comparison, and the properties of the spec.
+fn question(system: &System, spec: &Spec) -> Netlist {
+    let mut asked = comparison(system);
+    for (property, bad) in spec.never.iter().zip(&system.never) {
+        asked.never(property.name.clone(), *bad);
+    }
+    asked
 }
 
 /// What is left free and can tell on the outputs that are compared.
@@ -349,7 +446,10 @@ fn free(system: &System) -> Vec<Source> {
     let any = asked.any(&system.differ);
     asked.never("any", any);
     let cone = asked.cone(&[asked.properties().len() - 1]);
-    let sources = cone.inputs.iter().filter_map(|at| system.evolved.inputs.sources.get(*at));
+    let sources = cone
+        .inputs
+        .iter()
+        .filter_map(|at| system.evolved.inputs.sources.get(*at));
     let is_free = |source: &&Source| !matches!(source, Source::Bit(_) | Source::Choice { .. });
     sources.filter(is_free).cloned().collect()
 }
@@ -358,7 +458,9 @@ impl Verification {
     /// Whether all is proved: the outputs, and every property.
     pub fn is_proved(&self) -> bool {
         let all = self.properties.iter().map(|(_, verdict)| verdict);
-        std::iter::once(&self.verdict).chain(all).all(|it| *it == Verdict::Equivalent)
+        std::iter::once(&self.verdict)
+            .chain(all)
+            .all(|it| *it == Verdict::Equivalent)
     }
 
     /// Whether somebody asked to stop before all was known.
