@@ -26,7 +26,8 @@ pub enum Refusal {
     RuleAboutNumber(Name),
     /// The values of the variables do not settle within the limits.
     TooManyValues,
-    /// More gates than the limits allow.
+    /// More gates, or more work to find the values of its numbers, than the limits
+    /// allow.
     TooLarge,
     /// Somebody asked to stop.
     Cancelled,
@@ -62,7 +63,7 @@ impl Display for Refusal {
                 write!(f, "`{rule}` speaks of a number that is not followed")
             }
             Self::TooManyValues => f.write_str("the values of its numbers do not settle"),
-            Self::TooLarge => f.write_str("it has more gates than the limits allow"),
+            Self::TooLarge => f.write_str("it is too large for the effort that is allowed"),
             Self::Cancelled => f.write_str("stopped"),
         }
     }

@@ -51,6 +51,8 @@ pub struct Verification {
     pub timing: Timing,
     /// Whether the two do the same.
     pub verdict: Verdict,
+    /// How many environment rules restrict the inputs.
+    pub rules: usize,
     /// The outputs that were compared.
     pub outputs: Vec<Name>,
     /// Outputs of the spec that the ladder does not know.
@@ -172,6 +174,7 @@ impl<'v> Verifier<'v> {
     ) -> Result<Self, Refusal> {
         let bounds = Bounds {
             gates: limits.gates,
+            work: usize::try_from(limits.steps / 50).unwrap_or(usize::MAX),
             cancel: limits.cancel.clone(),
         };
         Ok(Self {
@@ -201,6 +204,7 @@ impl<'v> Verifier<'v> {
             return Ok(Verification {
                 timing: self.timing,
                 verdict,
+                rules: self.spec.environment.len(),
                 missing: system.missing.clone(),
                 properties,
                 free: free(&system),

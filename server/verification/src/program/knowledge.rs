@@ -6,6 +6,10 @@ use logic::{Datum, Name};
 
 use crate::value::MOST_VALUES;
 
+/// A variable whose values grow in more passes than this counts on and on, as far
+/// as can be seen.
+const MOST_GROWTH: usize = 40;
+
 /// The values that a variable can have when a scan begins.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Domain {
@@ -45,6 +49,8 @@ pub(super) struct Knowledge {
     /// Variables that the program does not write and computes with: the
     /// constants that they are compared with; `None` if more is done.
     pub(super) numbers: BTreeMap<Name, Option<Vec<Datum>>>,
+    /// In how many passes a variable was found to have more values.
+    grown: BTreeMap<Name, usize>,
     has_learnt: bool,
 }
 
@@ -66,6 +72,16 @@ impl Knowledge {
     /// Something else than a timer or counter writes the variable.
     pub(super) fn writes_by_hand(&mut self, name: &Name) {
         self.has_learnt |= self.by_hand.insert(name.clone());
+    }
+
+    /// The values of the variable grow in this pass: what counts on and on is not
+    /// followed.
+    pub(super) fn grows(&mut self, name: &Name) {
+        let passes = self.grown.entry(name.clone()).or_default();
+        *passes += 1;
+        if *passes > MOST_GROWTH {
+            self.loses(name);
+        }
     }
 
     /// The variable can have the value when a scan begins.

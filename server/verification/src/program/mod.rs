@@ -63,6 +63,8 @@ pub struct Followed {
 pub struct Bounds {
     /// Most nodes of the transition system.
     pub gates: usize,
+    /// Most nodes, and cases of numbers that are tried, of all passes together.
+    pub work: usize,
     /// Obeyed between two rungs.
     pub cancel: Cancel,
 }
@@ -71,6 +73,7 @@ impl Default for Bounds {
     fn default() -> Self {
         Self {
             gates: 4_000_000,
+            work: 100_000_000,
             cancel: Cancel::default(),
         }
     }
@@ -91,6 +94,7 @@ pub fn follow(
         let name = machine.names().resolved(&name, &|_| None).into_owned();
         knowledge.compares(&name.into(), constant);
     }
+    let mut work = 0;
     for _ in 0..MOST_PASSES {
         let _ = knowledge.take_learnt();
         let store = Store::new(machine.names(), &given, &mut knowledge);
@@ -111,6 +115,10 @@ pub fn follow(
         } = pass;
         memories.end(&mut store);
         store.end();
+        work += store.net.size() + store.tried;
+        if work > bounds.work {
+            return Err(Refusal::TooLarge);
+        }
         let (netlist, inputs, values, frees) = store.into_values();
         if !knowledge.take_learnt() {
             return Ok(Followed {

@@ -57,6 +57,8 @@ pub(super) struct Store<'k> {
     bits_of: BTreeSet<Name>,
     /// Names for what is free and is no variable.
     frees: Frees,
+    /// Cases that were tried.
+    pub(super) tried: usize,
 }
 
 impl<'k> Store<'k> {
@@ -73,6 +75,7 @@ impl<'k> Store<'k> {
             unknowns: 0,
             bits_of: BTreeSet::new(),
             frees: HashMap::new(),
+            tried: 0,
         }
     }
 
@@ -395,6 +398,7 @@ impl<'k> Store<'k> {
         let mut tried = 0;
         while let Some((chosen, when)) = open.pop() {
             tried += 1;
+            self.tried += 1;
             if tried > MOST_CASES {
                 self.unknowns += 1;
                 return Err(Lost(vec![self.unknowns]));
@@ -598,6 +602,9 @@ impl<'k> Store<'k> {
         let is_bit = |value: &Datum| matches!(value, Datum::Bool(_));
         if !new.iter().all(|(value, _)| is_bit(value)) && domain.len() > 1 {
             self.keep_possible(name, &mut new);
+        }
+        if !new.is_empty() {
+            self.knowledge.grows(name);
         }
         for (value, _) in new {
             self.knowledge.holds(name, value);

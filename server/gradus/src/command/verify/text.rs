@@ -35,8 +35,15 @@ fn verdict(found: &Verification, paint: Paint) -> String {
     };
     let line = match &found.verdict {
         Verdict::Equivalent => format!(
-            "{}: {outputs} equal {timing}, for every sequence of inputs that can happen",
-            paint.bold("equivalent")
+            "{}: {outputs} equal {timing}, {}",
+            paint.bold("equivalent"),
+            match found.rules {
+                0 => "whatever the inputs".to_owned(),
+                rules => format!(
+                    "whatever the inputs that {} allow",
+                    numbered(rules, "environment rule")
+                ),
+            }
         ),
         Verdict::Different(difference) => {
             let steps = steps(difference.trace.steps.len(), found.timing);
