@@ -155,8 +155,8 @@ fn shown(difference: &Difference, timing: Timing, paint: Paint) -> String {
     }
     let mut out = table(&rows, paint);
     if difference.is_brief {
-        out += "  It is over after another scan with the same inputs: in the scan that is shown\n  \
-                a rung saw a value that a rung below it changed later.\n";
+        out += "  It is over after another scan with the same inputs, as where a rung looks at\n  \
+                what a rung below it decides.\n";
     }
     out
 }
