@@ -53,6 +53,17 @@ impl Cone {
     }
 }
 
+/// What depends on some inputs; see [`Netlist::touched_by`].
+#[derive(Clone, Debug)]
+pub struct Touched(Vec<bool>);
+
+impl Touched {
+    /// Whether the signal does.
+    pub fn contains(&self, signal: Signal) -> bool {
+        self.0[signal.node()]
+    }
+}
+
 /// Several parts of a netlist as one of them.
 pub(crate) fn joined(parts: &[Cone]) -> Cone {
     let mut all = Cone {
@@ -83,6 +94,30 @@ impl Netlist {
     pub fn cone(&self, properties: &[usize]) -> Cone {
         let constraints: Vec<usize> = (0..self.constraints.len()).collect();
         Cutter::new(self, &Classes::alone(self.size())).cut(properties, &constraints)
+    }
+
+    /// What depends on any of these inputs, in the same scan or a later one.
+    pub fn touched_by(&self, inputs: &[usize]) -> Touched {
+        let mut touched = vec![false; self.size()];
+        for &at in inputs {
+            touched[self.inputs[at].signal.node()] = true;
+        }
+        loop {
+            for node in 0..self.size() {
+                if let Some([a, b]) = self.graph.gate(node) {
+                    touched[node] |= touched[a.node()] || touched[b.node()];
+                }
+            }
+            let mut grows = false;
+            for latch in &self.latches {
+                let own = latch.signal.node();
+                grows |= touched[latch.next.node()] && !touched[own];
+                touched[own] |= touched[latch.next.node()];
+            }
+            if !grows {
+                return Touched(touched);
+            }
+        }
     }
 
     /// The inputs and latches that a signal depends on within a scan, as nodes,

@@ -74,11 +74,12 @@ mod report;
 mod runs;
 mod signal;
 mod solver;
+mod supposed;
 mod trace;
 
 pub use check::check;
 pub use compare::{Comparison, compare};
-pub use cone::Cone;
+pub use cone::{Cone, Touched};
 pub use export::{aiger, blif};
 pub use gates::Gates;
 pub use limits::{Limits, Why};
@@ -86,6 +87,7 @@ pub use netlist::{Initial, Input, Latch, Netlist, Output};
 pub use place::Placed;
 pub use report::{Difference, Proof, Report, Status, Verdict};
 pub use signal::Signal;
+pub use supposed::Supposed;
 pub use trace::{Replay, Trace, replay};
 
 #[cfg(test)]

@@ -25,6 +25,7 @@ mod named;
 mod outcome;
 mod spec_file;
 mod text;
+mod verdict;
 
 use accept::Wanted;
 use conversion::Conversion;
@@ -49,6 +50,9 @@ Accepting:
              v1->v2&h&m     these states start together
 The arcs of step registers are exact and need no accepting.
 
+Last, the spec is verified with a small effort, after every scan: whether it does
+what the ladder does. `gradus verify` tells more.
+
 The summary goes to standard output. With `-o -` and --dry-run the spec, or its
 change, is the answer, and the summary goes to standard error.
 
@@ -57,7 +61,8 @@ JSON:
     \"states\": [{\"state\", \"accepted\": [{\"to\": [], \"new\"}], \"written\": [],
       \"open\": [{\"to\", \"evidence\", \"kind\"}], \"rejected\": [], \"initial\"}],
     \"two_step\": [], \"unreached\": [], \"in_definitions\": [], \"sequence\",
-    \"reason\", \"diagnostics\": [], \"text\"}
+    \"reason\", \"verdict\", \"diagnostics\": [], \"text\"}
+  `verdict` is equivalent, different or unknown, null where the spec has no outputs.
   `state` is new, changed, unchanged, would_change or printed. `states` are those
   about which something is decided, written or open; `two_step` those that no
   accepted pair ties to a sequence, `unreached` those to which nothing accepted
@@ -236,14 +241,21 @@ fn finish(
     };
     let findings = findings(&conversion, &new);
     let status = ladder.status().max(status(&findings));
+    let verdict = {
+        let _progress = program::progress("Verifying", ladder);
+        verdict::of(&ladder.program, &new, io.cancel())
+    };
     if args.json {
-        let json = json::json(ladder, &outcome, state, &findings, &new);
+        let json = json::json(ladder, &outcome, state, &findings, &new, &verdict);
         writeln!(io.answer(), "{json:#}")?;
         return Ok(status);
     }
     let name = conversion.file.name();
     let paint = io.answer_paint();
-    let summary = |paint| text::summary(&outcome, &name, state, paint);
+    let summary = |paint| {
+        text::summary(&outcome, &name, state, paint)
+            + &format!("{}: {}\n", printable(&name), verdict.sentence)
+    };
     if args.dry_run && conversion.file.path.is_some() {
         let diff = diff::unified(&printable(&name), &old, &new, paint);
         io.answer().write_all(diff.as_bytes())?;

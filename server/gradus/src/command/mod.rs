@@ -15,6 +15,7 @@ mod lsp;
 mod manual;
 pub mod simulate;
 mod suggest;
+mod verify;
 
 use crate::io::Io;
 use crate::status::Status;
@@ -26,6 +27,7 @@ pub enum Command {
     Conditions(conditions::Args),
     Suggest(suggest::Args),
     Convert(convert::Args),
+    Verify(verify::Args),
     Simulate(simulate::Args),
     Generate(generate::Args),
     Fmt(fmt::Args),
@@ -42,6 +44,7 @@ pub fn run(command: &Command, io: &mut Io) -> std::io::Result<Status> {
         Command::Conditions(args) => conditions::run(args, io),
         Command::Suggest(args) => suggest::run(args, io),
         Command::Convert(args) => convert::run(args, io),
+        Command::Verify(args) => verify::run(args, io),
         Command::Simulate(args) => simulate::run(args, io),
         Command::Generate(args) => generate::run(args, io),
         Command::Fmt(args) => fmt::run(args, io),

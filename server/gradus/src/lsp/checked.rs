@@ -339,6 +339,32 @@ mod tests {
     }
 
     #[test]
+    fn a_scenario_is_checked_with_all_that_it_may_run_on() {
+        let folder = Folder::new();
+        let (checked, mut told) = (Checked::default(), Told::new());
+        folder.write("plant/a.ladder", LADDER);
+        folder.write(
+            "full.scenario",
+            "scenario Full\nfor \"plant/a.ladder\"\non a => on b\n",
+        );
+        folder.write("empty.scenario", "scenario Empty\non a => off b\n");
+        let first = folder.check(&checked, &mut told);
+        let expected = ["empty.scenario 0", "full.scenario 0", "a.ladder 0"];
+        assert_eq!(first, expected);
+        // What is named in another folder counts.
+        folder.write("plant/a.ladder", "input a\nrung: a*/b -> c\n");
+        let second = folder.check(&checked, &mut told);
+        assert_eq!(second[1], "full.scenario 1");
+        // So does what a scenario that names nothing finds beside itself.
+        folder.write("b.ladder", LADDER);
+        let third = folder.check(&checked, &mut told);
+        assert_eq!(third[..2], ["b.ladder 0", "empty.scenario 1"]);
+        assert_eq!(read(&checked), 5);
+        folder.check(&checked, &mut told);
+        assert_eq!(read(&checked), 0);
+    }
+
+    #[test]
     fn nothing_is_read_again_that_is_what_it_was() {
         let folder = Folder::new();
         let (checked, mut told) = (Checked::default(), Told::new());

@@ -6,32 +6,46 @@ use super::term::Operand;
 
 /// An expression of the grafcet, ready to be evaluated.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Condition {
+pub enum Condition {
+    /// Always or never.
     Constant(bool),
+    /// A variable is on.
     Variable(usize),
+    /// A step is active.
     Step(usize),
+    /// Two values compare so.
     Comparison {
+        /// The left value.
         left: Operand,
+        /// How they compare.
         relation: Relation,
+        /// The right value.
         right: Operand,
     },
     /// An edge, by its place among the grafcet's edges.
     Edge(usize),
     /// A step has been active for so many milliseconds.
     Elapsed {
+        /// Milliseconds.
         time: u64,
+        /// The step.
         step: usize,
     },
+    /// The opposite.
     Not(Box<Condition>),
+    /// All hold.
     All(Vec<Condition>),
+    /// One of them holds.
     Any(Vec<Condition>),
 }
 
 /// An edge in some expression: what it looks at, and which way.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Edge {
-    pub(super) of: Condition,
-    pub(super) is_falling: bool,
+pub struct Edge {
+    /// What it looks at.
+    pub of: Condition,
+    /// Whether it occurs when that ceases to hold.
+    pub is_falling: bool,
 }
 
 /// What an expression sees.

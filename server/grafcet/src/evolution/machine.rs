@@ -186,6 +186,14 @@ impl Machine {
         step.is_some_and(|step| self.state.active[*step])
     }
 
+    /// How many milliseconds the step called `name` has been active, by the last
+    /// scan; 0 if it is not.
+    pub fn active_ms(&self, name: &str) -> u64 {
+        let step = self.net.step_names.get(name);
+        let active = step.filter(|step| self.state.active[**step]);
+        active.map_or(0, |step| self.now.saturating_sub(self.state.since[*step]))
+    }
+
     /// What is published: the outputs in the order they are declared, then
     /// what actions write that nothing declares.
     pub fn outputs(&self) -> impl Iterator<Item = (&Name, Datum)> {

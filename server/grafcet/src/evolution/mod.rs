@@ -30,5 +30,10 @@ mod storing;
 mod term;
 mod unstable;
 
+pub use condition::{Condition, Edge};
 pub use machine::{Evolution, Machine};
+pub use net::{
+    Continuous, Effect, Expansion, Imposed, Kind, Net, On, Order, Part, Step, Stored, Transition,
+};
+pub use term::{Operand, Term};
 pub use unstable::Unstable;

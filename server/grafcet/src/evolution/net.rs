@@ -9,43 +9,60 @@ use std::collections::HashMap;
 
 use logic::{Datum, Name};
 
+use super::compile::compile;
 use super::condition::{Condition, Edge, View};
 use super::term::Term;
+use crate::Grafcet;
 
+/// A grafcet with numbers in place of names.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Net {
-    pub(super) steps: Vec<Step>,
-    pub(super) step_names: HashMap<Name, usize>,
-    pub(super) variables: Vec<Name>,
-    pub(super) variable_names: HashMap<Name, usize>,
+pub struct Net {
+    /// All steps, in the order they are declared.
+    pub steps: Vec<Step>,
+    /// Steps by name.
+    pub step_names: HashMap<Name, usize>,
+    /// The names of all variables.
+    pub variables: Vec<Name>,
+    /// Variables by name.
+    pub variable_names: HashMap<Name, usize>,
     /// Variables by their addresses, in capital letters.
-    pub(super) addresses: HashMap<String, usize>,
+    pub addresses: HashMap<String, usize>,
     /// Variables that are published, in the order they are declared.
-    pub(super) outputs: Vec<usize>,
-    pub(super) transitions: Vec<Transition>,
+    pub outputs: Vec<usize>,
+    /// Transitions, in the order of the text.
+    pub transitions: Vec<Transition>,
     /// Inner edges stand before the edges that look at them.
-    pub(super) edges: Vec<Edge>,
+    pub edges: Vec<Edge>,
     /// How many of them are sampled when a scan begins. The others stand in
     /// conditions of continuous actions, and are sampled when these are.
-    pub(super) sampled_first: usize,
-    pub(super) stored: Vec<Stored>,
+    pub sampled_first: usize,
+    /// Stored actions, in the order in which those of one moment are performed.
+    pub stored: Vec<Stored>,
     /// Outputs with continuous actions, those first that others depend on.
-    pub(super) continuous: Vec<Vec<Continuous>>,
+    pub continuous: Vec<Vec<Continuous>>,
     /// Whether a variable is the output of a continuous action.
-    pub(super) is_continuous: Vec<bool>,
-    pub(super) orders: Vec<Order>,
-    pub(super) parts: Vec<Part>,
+    pub is_continuous: Vec<bool>,
+    /// Forcing orders, in the order of the text.
+    pub orders: Vec<Order>,
+    /// Partial grafcets and expansions.
+    pub parts: Vec<Part>,
 }
 
+/// A step.
 #[derive(Clone, Debug)]
-pub(super) struct Step {
-    pub(super) name: Name,
-    pub(super) is_initial: bool,
-    pub(super) kind: Kind,
+pub struct Step {
+    /// Its name.
+    pub name: Name,
+    /// Whether it is active in the initial situation.
+    pub is_initial: bool,
+    /// What it is.
+    pub kind: Kind,
 }
 
+/// What a step is.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) enum Kind {
+pub enum Kind {
+    /// A step that holds its own activity.
     Plain,
     /// A macro-step with an expansion.
     Macro(Expansion),
@@ -55,50 +72,70 @@ pub(super) enum Kind {
 
 /// What stands for a macro-step, down to steps that hold activity.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub(super) struct Expansion {
-    pub(super) entry: Option<usize>,
-    pub(super) exit: Option<usize>,
-    pub(super) steps: Vec<usize>,
+pub struct Expansion {
+    /// The step that entering it activates.
+    pub entry: Option<usize>,
+    /// The step that enables what comes after it.
+    pub exit: Option<usize>,
+    /// The steps that it is active with.
+    pub steps: Vec<usize>,
 }
 
+/// A transition.
 #[derive(Clone, Debug)]
-pub(super) struct Transition {
-    pub(super) name: Name,
+pub struct Transition {
+    /// Its name.
+    pub name: Name,
     /// `None` if a step before it does not exist: then nothing enables it.
-    pub(super) from: Option<Vec<usize>>,
-    pub(super) to: Vec<usize>,
-    pub(super) receptivity: Condition,
+    pub from: Option<Vec<usize>>,
+    /// The steps after it.
+    pub to: Vec<usize>,
+    /// Its condition.
+    pub receptivity: Condition,
     /// The part it belongs to; none for the main chart.
-    pub(super) part: Option<usize>,
+    pub part: Option<usize>,
 }
 
 /// A stored action.
 #[derive(Clone, Debug)]
-pub(super) struct Stored {
-    pub(super) step: usize,
-    pub(super) on: On,
-    pub(super) condition: Condition,
-    pub(super) variable: usize,
-    pub(super) effect: Effect,
+pub struct Stored {
+    /// The step it belongs to.
+    pub step: usize,
+    /// When it is performed.
+    pub on: On,
+    /// What must hold then.
+    pub condition: Condition,
+    /// What it writes.
+    pub variable: usize,
+    /// What it writes there.
+    pub effect: Effect,
 }
 
+/// The event of a stored action.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum On {
+pub enum On {
+    /// Its step is activated.
     Activation,
+    /// Its step is deactivated.
     Deactivation,
     /// When this edge occurs.
     Event(usize),
 }
 
-/// In the order in which those of one moment are performed.
+/// What a stored action writes, in the order in which those of one moment are
+/// performed.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Effect {
+pub enum Effect {
+    /// The value of a term.
     Assign(Term),
+    /// On.
     Set,
+    /// Off.
     Reset,
 }
 
 impl Effect {
+    /// Its place among those of one moment.
     pub(super) fn rank(&self) -> u8 {
         match self {
             Self::Assign(_) => 0,
@@ -110,49 +147,64 @@ impl Effect {
 
 /// An output with all its continuous actions: it is on while one of them acts.
 #[derive(Clone, Debug)]
-pub(super) struct Continuous {
-    pub(super) variable: usize,
+pub struct Continuous {
+    /// The output.
+    pub variable: usize,
     /// The step and what else must hold.
-    pub(super) acts: Vec<(usize, Condition)>,
+    pub acts: Vec<(usize, Condition)>,
     /// The edges in what must hold, which compare one stable situation with
     /// the next.
-    pub(super) edges: Vec<usize>,
+    pub edges: Vec<usize>,
 }
 
 /// A forcing order.
 #[derive(Clone, Debug)]
-pub(super) struct Order {
-    pub(super) step: usize,
-    pub(super) condition: Condition,
-    pub(super) part: usize,
-    pub(super) situation: Imposed,
+pub struct Order {
+    /// The step that gives it.
+    pub step: usize,
+    /// What else must hold.
+    pub condition: Condition,
+    /// The part that is forced.
+    pub part: usize,
+    /// The situation that it imposes.
+    pub situation: Imposed,
 }
 
+/// A situation that an order imposes.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) enum Imposed {
+pub enum Imposed {
+    /// These steps and no others.
     Steps(Vec<usize>),
+    /// The one it is in.
     Current,
+    /// The initial one.
     Initial,
 }
 
+/// A partial grafcet or expansion.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Part {
+pub struct Part {
     /// Steps that hold activity, those of expansions below it included.
-    pub(super) owned: Vec<usize>,
+    pub owned: Vec<usize>,
     /// Steps that the activation of an enclosing step activates.
-    pub(super) linked: Vec<usize>,
+    pub linked: Vec<usize>,
     /// The steps that enclose it; without one it is always free to run.
-    pub(super) enclosed_by: Vec<usize>,
+    pub enclosed_by: Vec<usize>,
     /// The macro-steps that it expands.
-    pub(super) expands: Vec<usize>,
+    pub expands: Vec<usize>,
     /// The parts whose forcing freezes it: itself, and those that hold the
     /// macro-steps that it expands.
-    pub(super) frozen_with: Vec<usize>,
+    pub frozen_with: Vec<usize>,
 }
 
 impl Net {
+    /// The grafcet ready to run, its instances written out.
+    pub fn of(grafcet: &Grafcet) -> Self {
+        compile(grafcet)
+    }
+
     /// The step that is activated where an arc leads to `step`.
-    pub(super) fn entry(&self, step: usize) -> Option<usize> {
+    pub fn entry(&self, step: usize) -> Option<usize> {
         match &self.steps.get(step)?.kind {
             Kind::Macro(expansion) => expansion.entry,
             _ => Some(step),
@@ -160,7 +212,7 @@ impl Net {
     }
 
     /// The step that must be active where an arc leads from `step`.
-    pub(super) fn exit(&self, step: usize) -> Option<usize> {
+    pub fn exit(&self, step: usize) -> Option<usize> {
         match &self.steps.get(step)?.kind {
             Kind::Macro(expansion) => expansion.exit,
             _ => Some(step),
@@ -168,13 +220,13 @@ impl Net {
     }
 
     /// Whether some action writes the variable.
-    pub(super) fn is_written(&self, variable: usize) -> bool {
+    pub fn is_written(&self, variable: usize) -> bool {
         let mut stored = self.stored.iter();
         self.is_continuous[variable] || stored.any(|action| action.variable == variable)
     }
 
     /// The variable called `name`, or the one that has it as its address.
-    pub(super) fn variable(&self, name: &str) -> Option<usize> {
+    pub fn variable(&self, name: &str) -> Option<usize> {
         let named = self.variable_names.get(name);
         let addressed = || match name.starts_with('%') {
             true => self.addresses.get(&name.to_ascii_uppercase()),

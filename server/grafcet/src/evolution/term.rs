@@ -8,8 +8,10 @@ use super::condition::View;
 
 /// What stands for a value.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Operand {
+pub enum Operand {
+    /// A number.
     Constant(Datum),
+    /// A variable.
     Variable(usize),
     /// A step's variable, 0 or 1.
     Step(usize),
@@ -27,7 +29,7 @@ impl Operand {
 
 /// A sum such as `C + 1`, the value of an assignment.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Term(Vec<Summand>);
+pub struct Term(Vec<Summand>);
 
 #[derive(Clone, Debug, PartialEq)]
 struct Summand {
@@ -53,8 +55,23 @@ impl Term {
     }
 
     pub(super) fn value(&self, view: &View<'_>) -> Datum {
+        let mut operands = self.0.iter();
+        self.sum(|| {
+            operands
+                .next()
+                .map_or(Datum::default(), |it| it.operand.value(view))
+        })
+    }
+
+    /// The operands, in their order.
+    pub fn operands(&self) -> impl Iterator<Item = &Operand> {
+        self.0.iter().map(|part| &part.operand)
+    }
+
+    /// The value, where `next` gives that of each operand in turn.
+    pub fn sum(&self, mut next: impl FnMut() -> Datum) -> Datum {
         let mut values = self.0.iter().map(|part| {
-            let value = part.operand.value(view);
+            let value = next();
             let value = match part.is_negative {
                 true => minus(Datum::Integer(0), value),
                 false => value,

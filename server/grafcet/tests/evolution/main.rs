@@ -2,6 +2,7 @@
 
 mod actions;
 mod bounds;
+mod charts;
 mod hierarchy;
 mod page;
 mod random;

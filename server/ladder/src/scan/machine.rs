@@ -8,7 +8,7 @@ use super::solve::{Memory, Solving};
 use super::state::State;
 use super::timer::Clock;
 use super::unknown::unknown;
-use super::{Datum, counter, timer};
+use super::{Datum, Names, counter, timer};
 use crate::flow::{Layout, Steer, layouts};
 use crate::{ElementKind, Program, Role};
 
@@ -145,6 +145,28 @@ impl<'p> Machine<'p> {
     /// be computed.
     pub fn compute(&self, text: &str) -> Option<Datum> {
         self.state.compute(text)
+    }
+
+    /// What names mean to this machine.
+    pub fn names(&self) -> &Names {
+        self.state.names()
+    }
+
+    /// The values that are stored now, in no order: before the first scan the
+    /// initial ones. All other variables are 0.
+    pub fn stored(&self) -> impl Iterator<Item = (&Name, Datum)> {
+        self.state.values()
+    }
+
+    /// The variable that is on in the first scan and off from then on.
+    pub fn first_scan(&self) -> &Name {
+        &self.first_scan
+    }
+
+    /// The routines that a scan solves by themselves, in their order, as places
+    /// in [`Program::routines`].
+    pub fn roots(&self) -> &[usize] {
+        &self.roots
     }
 
     /// Whether all variables and the memories of all edges are as in `other`,

@@ -17,6 +17,7 @@
 mod atom;
 mod counter;
 mod machine;
+mod names;
 mod power;
 mod solve;
 mod state;
@@ -27,4 +28,5 @@ mod unknown;
 pub use atom::{memory_atom, own_atom, pin_atom, wire_memory_atom};
 pub use logic::Datum;
 pub use machine::Machine;
+pub use names::{Kind, Names, Stored, bit_of_word, is_plain};
 pub use power::{Power, power};

@@ -199,7 +199,7 @@ impl Parser<'_> {
 
 /// How far a name or constant goes on from the start of `text`: `A.B[i+1].C`,
 /// `Local:1:I.Data.0`, `16#F0`, `1e-5`.
-fn atom_length(text: &str) -> usize {
+pub(super) fn atom_length(text: &str) -> usize {
     let number = text.starts_with(|c: char| c.is_ascii_digit());
     let based = number && text.contains('#');
     let mut open = 0usize;

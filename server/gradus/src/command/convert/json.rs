@@ -7,6 +7,7 @@ use serde_json::{Value, json as value};
 
 use super::outcome::{OfState, Outcome};
 use super::spec_file::State;
+use super::verdict::Found;
 use crate::program::Ladder;
 use crate::report::{self, Findings};
 
@@ -17,6 +18,7 @@ pub fn json(
     state: State,
     findings: &Findings,
     text: &str,
+    verdict: &Found,
 ) -> Value {
     let is_printed = state == State::Printed;
     let (sequence, reason) = &outcome.verdict;
@@ -34,6 +36,7 @@ pub fn json(
         "in_definitions": names(&outcome.in_definitions),
         "sequence": sequence,
         "reason": reason,
+        "verdict": verdict.word,
         "diagnostics": diagnostics["diagnostics"].take(),
         "text": is_printed.then_some(text),
     })

@@ -1,0 +1,180 @@
+//! A grafcet as a transition system.
+//!
+//! The grafcet is the machine's own (`grafcet::evolution::Net`), with numbers in
+//! place of names; a scan is followed by the rules of `docs/evolution.md`, with a
+//! signal where the machine has a value. How many evolutions a scan takes is not
+//! known at first: so many are followed as are asked for, and a signal says
+//! whether one more would still change the situation. As long as that can
+//! happen, somebody must ask for more, or see that it never ends.
+//!
+//! What the grafcet does not write and its ladder knows, it reads from the
+//! ladder, after the ladder's scan. All else that it does not write is an input.
+
+mod evolution;
+mod hierarchy;
+mod reading;
+mod state;
+mod storing;
+
+use std::collections::BTreeMap;
+
+use grafcet::Spec;
+use grafcet::evolution::{Machine, Net};
+use logic::{Datum, Name};
+use proof::{Netlist, Signal};
+
+use self::state::State;
+use crate::compared;
+use crate::inputs::Inputs;
+use crate::program::{Bounds, Followed};
+use crate::refusal::Refusal;
+use crate::value::{MOST_VALUES, Value};
+
+/// So often a grafcet is followed to find the values of its variables.
+const MOST_PASSES: usize = 400;
+
+/// A grafcet that has been followed, and the ladder beside it.
+#[derive(Clone, Debug)]
+pub struct Evolved {
+    /// The transition system of both.
+    pub netlist: Netlist,
+    /// What its inputs stand for.
+    pub inputs: Inputs,
+    /// By step, in the order in which they are declared: its name, and whether
+    /// it is active in the stable situation.
+    pub active: Vec<(Name, Signal)>,
+    /// Whether one more evolution would still change the situation.
+    pub unstable: Signal,
+    outputs: Vec<Name>,
+    names: BTreeMap<Name, usize>,
+    values: Vec<Value>,
+}
+
+/// The values that each variable can have when a scan begins.
+type Domains = Vec<Vec<Datum>>;
+
+/// Follows the grafcet of a spec, beside a ladder if there is one, through so
+/// many evolutions a scan.
+pub fn follow(
+    spec: &Spec,
+    ladder: Option<&Followed>,
+    evolutions: usize,
+    bounds: &Bounds,
+) -> Result<Evolved, Refusal> {
+    let net = Net::of(&spec.grafcet);
+    let start = Machine::new(&spec.grafcet);
+    let initial: Vec<bool> = net
+        .steps
+        .iter()
+        .map(|step| start.is_active(&step.name))
+        .collect();
+    let mut numbers: BTreeMap<Name, Vec<Datum>> = BTreeMap::new();
+    for (name, constant) in compared::constants(spec) {
+        let known = numbers
+            .entry(name)
+            .or_insert_with(|| vec![Datum::Integer(0)]);
+        known.push(constant);
+    }
+    let mut domains: Domains = vec![vec![Datum::default()]; net.variables.len()];
+    for _ in 0..MOST_PASSES {
+        if bounds.cancel.is_cancelled() {
+            return Err(Refusal::Cancelled);
+        }
+        let mut pass = Pass {
+            net: &net,
+            ladder,
+            netlist: ladder.map_or_else(Netlist::default, |it| it.netlist.clone()),
+            inputs: ladder.map_or_else(Inputs::default, |it| it.inputs.clone()),
+            edges: vec![Signal::FALSE; net.edges.len()],
+            elapsed: BTreeMap::new(),
+            numbers: &numbers,
+            unknowns: FIRST_UNKNOWN,
+        };
+        let (mut state, latches) = pass.begin(&initial, &domains);
+        let unstable = pass.scan(&mut state, &latches, evolutions, bounds)?;
+        pass.end(&state, &latches);
+        if !learn(&mut domains, &state, &net) {
+            return Ok(Evolved {
+                netlist: pass.netlist,
+                inputs: pass.inputs,
+                active: net
+                    .steps
+                    .iter()
+                    .map(|step| step.name.clone())
+                    .zip(state.active)
+                    .collect(),
+                unstable,
+                outputs: net
+                    .outputs
+                    .iter()
+                    .map(|at| net.variables[*at].clone())
+                    .collect(),
+                names: net.variables.iter().cloned().zip(0..).collect(),
+                values: state.values,
+            });
+        }
+    }
+    Err(Refusal::TooManyValues)
+}
+
+/// The numbers of unknowns that a ladder beside does not use.
+const FIRST_UNKNOWN: usize = 1 << 40;
+
+/// Adds the values that variables have at the end of a scan. Whether any is
+/// new. A variable with too many is not followed: its domain is empty.
+fn learn(domains: &mut Domains, state: &State, net: &Net) -> bool {
+    let mut has_learnt = false;
+    for (at, domain) in domains.iter_mut().enumerate() {
+        if !net.is_written(at) || domain.is_empty() {
+            continue;
+        }
+        let Value::Known(cases) = &state.values[at] else {
+            domain.clear();
+            has_learnt = true;
+            continue;
+        };
+        for (value, _) in cases {
+            if domain.iter().all(|known| known.key() != value.key()) {
+                domain.push(*value);
+                has_learnt = true;
+            }
+        }
+        if domain.len() > MOST_VALUES {
+            domain.clear();
+        }
+    }
+    has_learnt
+}
+
+/// One pass over a grafcet.
+struct Pass<'g> {
+    net: &'g Net,
+    ladder: Option<&'g Followed>,
+    netlist: Netlist,
+    inputs: Inputs,
+    /// The edges that occur at this moment.
+    edges: Vec<Signal>,
+    /// By step and milliseconds: whether the time has passed, as far as the
+    /// step has been active all the time.
+    elapsed: BTreeMap<(usize, u64), Signal>,
+    numbers: &'g BTreeMap<Name, Vec<Datum>>,
+    unknowns: usize,
+}
+
+impl Evolved {
+    /// The names of what is published, in the order of the text.
+    pub fn outputs(&self) -> &[Name] {
+        &self.outputs
+    }
+
+    /// The values that a variable can have when a scan has ended, and when. None
+    /// if there is no such variable, or if it is not followed.
+    pub fn cases(&self, name: &str) -> &[(Datum, Signal)] {
+        self.value(name).map_or(&[], Value::cases)
+    }
+
+    /// What a variable holds when a scan has ended.
+    pub(crate) fn value(&self, name: &str) -> Option<&Value> {
+        self.values.get(*self.names.get(name)?)
+    }
+}

@@ -1,0 +1,178 @@
+//! A ladder's machine and its translation on the same inputs.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use ladder::scan::Machine;
+use ladder::{ElementKind, Program, TimerKind};
+use logic::{Datum, Name};
+use proof::{Netlist, Trace, replay};
+use verification::inputs::Source;
+use verification::program::Followed;
+
+use crate::random::Random;
+
+/// How many values were compared, and how many of them changed at some time.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Compared {
+    pub values: usize,
+    pub variables: usize,
+    pub changing: usize,
+    /// Variables that depend on what is not followed.
+    pub left_out: usize,
+}
+
+/// How the event of an instance follows from what the machine shows after the
+/// scan. None where it is solved in several places, reset, or written by hand:
+/// then what it was in between cannot be seen.
+fn events(program: &Program) -> BTreeMap<Name, Option<TimerKind>> {
+    let mut places: BTreeMap<Name, (usize, Option<TimerKind>)> = BTreeMap::new();
+    let mut disturbed: BTreeSet<Name> = BTreeSet::new();
+    for (_, rung) in program.rungs() {
+        for (_, element) in rung.network.elements() {
+            let (name, kind) = match &element.kind {
+                ElementKind::Timer(it) => (&it.instance.name, Some(it.kind)),
+                ElementKind::Counter(it) => (&it.instance.name, None),
+                other => {
+                    for written in other.writes() {
+                        let whole = written.name.split('.').next().unwrap_or_default();
+                        disturbed.extend([written.name.clone(), whole.into()]);
+                    }
+                    continue;
+                }
+            };
+            places.entry(name.clone()).or_insert((0, kind)).0 += 1;
+        }
+    }
+    let single = places
+        .into_iter()
+        .filter(|(name, (number, _))| *number == 1 && !disturbed.contains(name));
+    single.map(|(name, (_, kind))| (name, kind)).collect()
+}
+
+/// Runs both for so many scans and compares every variable whose value does
+/// not depend on what is not followed.
+pub fn compare(
+    program: &Program,
+    followed: &Followed,
+    scans: usize,
+    random: &mut Random,
+) -> Compared {
+    let mut machine = Machine::new(program);
+    let events = events(program);
+    let sources = &followed.inputs.sources;
+    let free: BTreeSet<usize> = (0..sources.len())
+        .filter(|at| match &sources[*at] {
+            Source::Event(of) => {
+                !events.contains_key(of) || followed.netlist.inputs()[*at].name.ends_with(')')
+            }
+            Source::Opaque(_) | Source::Elapsed { .. } => true,
+            Source::Bit(_) | Source::Choice { .. } => false,
+        })
+        .collect();
+    let (netlist, shown, left_out) = judged(followed, &free);
+    let mut now = vec![false; sources.len()];
+    let mut inputs = Vec::new();
+    let mut seen: Vec<Vec<Datum>> = Vec::new();
+    for _ in 0..scans {
+        for value in &mut now {
+            *value ^= random.below(4) == 0;
+        }
+        let mut numbers: BTreeMap<&Name, Datum> = followed
+            .inputs
+            .resting
+            .iter()
+            .map(|(name, value)| (name, *value))
+            .collect();
+        for (source, on) in sources.iter().zip(&now).rev() {
+            match source {
+                Source::Bit(name) => machine.set_input(name, *on),
+                Source::Choice { variable, value } if *on => {
+                    numbers.insert(variable, *value);
+                }
+                _ => {}
+            }
+        }
+        for (name, value) in numbers {
+            machine.set_input(name, value);
+        }
+        machine.scan([0, 10, 10, 20, 50][random.below(5)]);
+        let mut row = now.clone();
+        for (at, source) in sources.iter().enumerate() {
+            if let Source::Event(of) = source {
+                let done = machine.is_on(&format!("{of}.DN"));
+                row[at] = match events.get(of) {
+                    _ if followed.netlist.inputs()[at].name.contains("is at 0") => {
+                        machine.is_on(&format!("{of}.QD"))
+                    }
+                    Some(Some(TimerKind::OffDelay | TimerKind::Pulse)) => !done,
+                    _ => done,
+                };
+            }
+        }
+        inputs.push(row);
+        seen.push(shown.iter().map(|(name, _)| machine.value(name)).collect());
+    }
+    let trace = Trace {
+        initial: Vec::new(),
+        inputs,
+    };
+    let replayed = replay(&netlist, &trace);
+    let mut compared = Compared {
+        left_out,
+        variables: shown.len(),
+        ..Compared::default()
+    };
+    for (scan, (row, seen)) in replayed.outputs.iter().zip(&seen).enumerate() {
+        let mut outputs = row.iter();
+        for ((name, values), expected) in shown.iter().zip(seen) {
+            let on: Vec<Datum> = values
+                .iter()
+                .zip(&mut outputs)
+                .filter(|(_, on)| **on)
+                .map(|(value, _)| *value)
+                .collect();
+            let keys: Vec<[u64; 2]> = on.iter().map(|it| it.key()).collect();
+            assert_eq!(
+                keys,
+                [expected.key()],
+                "{name} in scan {scan}: {on:?}, but {expected:?}"
+            );
+            compared.values += 1;
+        }
+    }
+    compared.changing = (0..shown.len())
+        .filter(|at| seen.iter().any(|row| row[*at].key() != seen[0][*at].key()))
+        .count();
+    compared
+}
+
+/// The netlist with an output for every value of the variables that can be
+/// judged, and these variables.
+fn judged(
+    followed: &Followed,
+    free: &BTreeSet<usize>,
+) -> (Netlist, Vec<(Name, Vec<Datum>)>, usize) {
+    let mut netlist = followed.netlist.clone();
+    let touched = netlist.touched_by(&free.iter().copied().collect::<Vec<_>>());
+    let mut shown = Vec::new();
+    let mut left_out = 0;
+    for name in followed.variables() {
+        let cases = followed.cases(name);
+        if cases.is_empty() {
+            left_out += 1;
+            continue;
+        }
+        if cases.iter().any(|(_, when)| touched.contains(*when)) {
+            left_out += 1;
+            continue;
+        }
+        for (value, when) in cases {
+            netlist.output(format!("{name}={value}"), *when);
+        }
+        shown.push((
+            name.clone(),
+            cases.iter().map(|(value, _)| *value).collect(),
+        ));
+    }
+    (netlist, shown, left_out)
+}
