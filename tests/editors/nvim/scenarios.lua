@@ -95,6 +95,17 @@ t.test(':Gradus scan shows a scan in the ladder, and takes it back', function()
   end)
 end)
 
+t.test('a rename in the scenario changes the ladder too, and what is saved still holds', function()
+  local tank, scenario = tank_with_scenario('renamed')
+  t.go_to('on v1', 3)
+  vim.lsp.buf.rename('fill')
+  t.is_changed(tank.ladder)
+  t.save_all()
+  t.equal(t.read(scenario), 'on s => only on fill\noff s => only\n')
+  t.holds(t.read(tank.ladder), '(s + fill) * /ls2')
+  t.holds(t.gradus('check', '--json', scenario), '"diagnostics": []')
+end)
+
 t.test(':Gradus simulate says where there is no scenario', function()
   t.tank('no-scenario')
   local said

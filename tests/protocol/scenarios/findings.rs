@@ -1,7 +1,9 @@
 use end_to_end::lsp::{Client, Profile};
 use serde_json::json;
 use tower_lsp::ls_types::notification::DidChangeWatchedFiles;
-use tower_lsp::ls_types::{DidChangeWatchedFilesParams, FileChangeType, FileEvent, NumberOrString};
+use tower_lsp::ls_types::{
+    DiagnosticSeverity, DidChangeWatchedFilesParams, FileChangeType, FileEvent, NumberOrString,
+};
 
 use super::{LADDER, SCENARIO, SPEC, tank};
 use crate::client_like;
@@ -125,6 +127,17 @@ fn mistakes_are_told_and_a_scenario_that_has_one_is_not_run() {
             "4: G5001 line not understood: expected `=` and a value, found `ls2`\n\
              a step is written `on a, off b, wait 5s => on q`",
         ]
+    );
+}
+
+#[test]
+fn a_run_that_takes_long_is_ended_with_a_remark() {
+    let (mut client, _) = tank("for tank.ladder\nscan 60000 => off v1\nscan 60000 => on v1\n");
+    let found = client.diagnostics("fill.scenario");
+    assert_eq!(found[0].severity, Some(DiagnosticSeverity::INFORMATION));
+    assert_eq!(
+        said(&mut client, "fill.scenario"),
+        ["3: G5004 the run was ended after 100000 scans\n`gradus simulate` runs it to its end"]
     );
 }
 

@@ -9,17 +9,20 @@ use super::Scenario;
 use crate::hover::rung_title;
 use crate::navigate::{Pair, Target, driving, standing};
 
-/// How often a run in an editor may solve a rung: a second or two of work. Who
+/// How often a run in an editor may solve a rung: about a second of work. Who
 /// wants more runs `gradus simulate`.
-const MOST_SOLVED: u64 = 4_000_000;
+const MOST_SOLVED: u64 = 1_000_000;
 
 /// A run may take so many scans, however many rungs there are.
-const FEWEST_SCANS: u64 = 300;
+const FEWEST_SCANS: u64 = 100;
+
+/// It may not take more, however few rungs there are: each may leave a row.
+const MOST_SCANS: u64 = 100_000;
 
 /// The scans that a run of a ladder with so many rungs may take.
 fn most_scans(rungs: usize) -> u64 {
     let rungs = u64::try_from(rungs).unwrap_or(u64::MAX).max(1);
-    FEWEST_SCANS.max(MOST_SOLVED / rungs)
+    (MOST_SOLVED / rungs).clamp(FEWEST_SCANS, MOST_SCANS)
 }
 
 /// What came of a scenario.
@@ -259,7 +262,7 @@ mod tests {
         assert_eq!(found.diagnostic.severity, Severity::Information);
         let given_up = Run::new(&tank.scenario, tank.pair(), &|| false);
         assert!(given_up.is_cancelled() && !run.is_cancelled());
-        let most = [0, 1, 8, 1_000, 100_000].map(most_scans);
-        assert_eq!(most, [4_000_000, 4_000_000, 500_000, 4_000, 300]);
+        let most = [0, 8, 80, 1_000, 100_000].map(most_scans);
+        assert_eq!(most, [100_000, 100_000, 12_500, 1_000, 100]);
     }
 }

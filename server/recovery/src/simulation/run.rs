@@ -260,7 +260,7 @@ impl<'r, 's> Run<'r, 's> {
             let of_spec = || machine.map(|machine| machine.value(name));
             of_ladder.or_else(of_spec).unwrap_or_default()
         };
-        let of_ladder = |name: &Name| ladder.and_then(|ladder| ladder.value(name));
+        let of_ladder = |name: &Name| ladder.map(|ladder| ladder.shown(name));
         Values {
             inputs: self.simulation.inputs.iter().map(input).collect(),
             ladder: self

@@ -143,6 +143,11 @@ impl<'p> Ladder<'p> {
         }
     }
 
+    /// The value of a variable by the name that the ladder itself has for it.
+    pub(super) fn shown(&self, name: &str) -> Datum {
+        self.machine.value(name)
+    }
+
     pub(super) fn is_as_in(&self, other: &Self) -> bool {
         self.machine.is_as_in(&other.machine)
     }
