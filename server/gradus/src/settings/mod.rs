@@ -43,7 +43,7 @@ pub struct Config {
 #[cfg_attr(test, derive(schemars::JsonSchema), schemars(inline))]
 #[serde(rename_all = "camelCase", default, deny_unknown_fields)]
 pub struct CodeLens {
-    /// Show above each rung how many successions are open and accepted, and what the spec says of it.
+    /// Show above each rung how many successions are open and accepted, and what the spec says of it; above a scenario how it went.
     pub enable: bool,
 }
 
@@ -52,7 +52,7 @@ pub struct CodeLens {
 #[cfg_attr(test, derive(schemars::JsonSchema), schemars(inline))]
 #[serde(rename_all = "camelCase", default, deny_unknown_fields)]
 pub struct InlayHints {
-    /// Show beside a coil whether it is persistent and what holds it.
+    /// Show beside a coil whether it is persistent and what holds it; behind a step of a scenario what is on after it.
     pub enable: bool,
 }
 
@@ -90,7 +90,7 @@ impl From<Weakest> for Evidence {
 #[cfg_attr(test, derive(schemars::JsonSchema), schemars(inline))]
 #[serde(rename_all = "camelCase", default, deny_unknown_fields)]
 pub struct Diagnostics {
-    /// Report what is wrong or odd in ladders and specs.
+    /// Report what is wrong or odd in ladders and specs, and what a scenario expects and does not get.
     pub enable: bool,
     /// Report findings in all files of the folder, open or not, where the editor asks for them.
     pub workspace: bool,
