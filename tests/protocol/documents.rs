@@ -11,14 +11,14 @@ use proptest::sample::{Index, select};
 use proptest::test_runner::{Config, TestCaseError, TestRunner};
 use serde_json::{Value, json};
 use tower_lsp::ls_types::notification::DidChangeWatchedFiles;
-use tower_lsp::ls_types::request::{HoverRequest, Request};
+use tower_lsp::ls_types::request::Request;
 use tower_lsp::ls_types::{
-    Diagnostic, DidChangeWatchedFilesParams, FileChangeType, FileEvent, HoverContents, HoverParams,
-    Position, TextDocumentContentChangeEvent,
+    Diagnostic, DidChangeWatchedFilesParams, FileChangeType, FileEvent, Position,
+    TextDocumentContentChangeEvent,
 };
 
 use crate::raw::{Raw, hover, large};
-use crate::{client, client_like};
+use crate::{client, client_like, hover_at};
 
 const TANK: &str = "\
 program Tank
@@ -62,18 +62,9 @@ fn conditions(client: &mut Client, name: &str) -> String {
 /// What is shown at a place: the text but for the document's address, and where
 /// the thing begins and ends.
 fn shown(client: &mut Client, name: &str, at: Position) -> Option<(String, Value)> {
-    let params = HoverParams {
-        text_document_position_params: client.at(name, at),
-        work_done_progress_params: Default::default(),
-    };
-    let hover = client.request::<HoverRequest>(params)?;
-    match hover.contents {
-        HoverContents::Markup(markup) => {
-            let text = markup.value.replace(client.uri(name).as_str(), "");
-            Some((text, json!(hover.range)))
-        }
-        other => panic!("no markup: {other:?}"),
-    }
+    let (markup, range) = hover_at(client, name, at)?;
+    let text = markup.value.replace(client.uri(name).as_str(), "");
+    Some((text, json!(range)))
 }
 
 /// Everything that the server says about a document, but for its address.

@@ -1,9 +1,8 @@
 use end_to_end::lsp::{Client, Marked, Profile};
 use serde_json::json;
-use tower_lsp::ls_types::request::HoverRequest;
-use tower_lsp::ls_types::{HoverContents, HoverParams, MarkupKind, TextDocumentPositionParams};
+use tower_lsp::ls_types::{MarkupKind, Position};
 
-use crate::{client, client_like};
+use crate::{client, client_like, hover_at};
 
 const TANK: &str = "\
 program Tank
@@ -27,15 +26,8 @@ fn shown(profile: Profile, before: &str, after: &str) -> Option<(MarkupKind, Str
     );
     let marked = client.open("tank.ladder", &text);
     let at = marked.position(0, profile.counts_bytes());
-    let params = HoverParams {
-        text_document_position_params: client.at("tank.ladder", at),
-        work_done_progress_params: Default::default(),
-    };
-    let hover = client.request::<HoverRequest>(params)?;
-    match hover.contents {
-        HoverContents::Markup(markup) => Some((markup.kind, markup.value)),
-        other => panic!("no markup: {other:?}"),
-    }
+    let (markup, _) = hover_at(&mut client, "tank.ladder", at)?;
+    Some((markup.kind, markup.value))
 }
 
 #[test]
@@ -83,15 +75,8 @@ rung: up$3 -> running
 ";
     let marked = client.open("hoist.ladder", text);
     let mut pages = |cursor: usize| -> Vec<String> {
-        let params = HoverParams {
-            text_document_position_params: client
-                .at("hoist.ladder", marked.position(cursor, false)),
-            work_done_progress_params: Default::default(),
-        };
-        let hover = client.request::<HoverRequest>(params).expect("a hover");
-        let HoverContents::Markup(markup) = hover.contents else {
-            panic!("no markup");
-        };
+        let at = marked.position(cursor, false);
+        let (markup, _) = hover_at(&mut client, "hoist.ladder", at).expect("a hover");
         let line = markup.value.lines().last().unwrap_or_default().to_owned();
         let links = line.strip_prefix("More on ").unwrap_or_default();
         links.split(", ").map(str::to_owned).collect()
@@ -152,14 +137,8 @@ rung: Seq = $010 * done -> Seq := 20
 rung: Seq = 20 * back -> Seq := 0
 ";
     let marked = client.open("press.ladder", text);
-    let params = HoverParams {
-        text_document_position_params: client.at("press.ladder", marked.position(0, false)),
-        work_done_progress_params: Default::default(),
-    };
-    let hover = client.request::<HoverRequest>(params).expect("a hover");
-    let HoverContents::Markup(markup) = hover.contents else {
-        panic!("no markup");
-    };
+    let at = marked.position(0, false);
+    let (markup, _) = hover_at(&mut client, "press.ladder", at).expect("a hover");
     assert_eq!(
         markup.value,
         "**Seq=10**  
@@ -184,14 +163,8 @@ fn what_is_long_goes_on_in_the_next_line() {
     let names: Vec<String> = (0..9).map(|at| format!("conveyor_{at}_empty")).collect();
     let text = format!("rung: {} -> $0ready\n", names.join(" * "));
     let marked = client.open("wide.ladder", &text);
-    let params = HoverParams {
-        text_document_position_params: client.at("wide.ladder", marked.position(0, true)),
-        work_done_progress_params: Default::default(),
-    };
-    let hover = client.request::<HoverRequest>(params).expect("a hover");
-    let HoverContents::Markup(markup) = hover.contents else {
-        panic!("no markup");
-    };
+    let at = marked.position(0, true);
+    let (markup, _) = hover_at(&mut client, "wide.ladder", at).expect("a hover");
     assert_eq!(
         markup.value,
         "**ready**  
@@ -220,21 +193,8 @@ fn shown_at(client: &mut Client, name: &str, what: &str) -> String {
         text,
         cursors: vec![at],
     };
-    let at = client.at(name, marked.position(0, true));
-    markup_at(client, at)
-}
-
-/// What is shown at a place.
-pub fn markup_at(client: &mut Client, at: TextDocumentPositionParams) -> String {
-    let params = HoverParams {
-        text_document_position_params: at,
-        work_done_progress_params: Default::default(),
-    };
-    let hover = client.request::<HoverRequest>(params).expect("a hover");
-    match hover.contents {
-        HoverContents::Markup(markup) => markup.value,
-        other => panic!("no markup: {other:?}"),
-    }
+    let (markup, _) = hover_at(client, name, marked.position(0, true)).expect("a hover");
+    markup.value
 }
 
 #[test]
@@ -324,10 +284,6 @@ fn between_things_nothing_is_shown() {
 fn xml_that_is_no_ladder_gets_no_answer() {
     let mut client = client();
     client.open("note.xml", "<note>v1</note>");
-    let params = HoverParams {
-        text_document_position_params: client.at("note.xml", Default::default()),
-        work_done_progress_params: Default::default(),
-    };
-    assert_eq!(client.request::<HoverRequest>(params), None);
+    assert_eq!(hover_at(&mut client, "note.xml", Position::default()), None);
     assert_eq!(client.diagnostics("note.xml"), []);
 }

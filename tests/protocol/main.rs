@@ -31,6 +31,8 @@ mod tokens;
 mod workspace_diagnostic;
 
 use end_to_end::lsp::{Client, Profile};
+use tower_lsp::ls_types::request::HoverRequest;
+use tower_lsp::ls_types::{HoverContents, HoverParams, MarkupContent, Position, Range};
 
 /// A client of the kind that most people have.
 fn client() -> Client {
@@ -40,4 +42,19 @@ fn client() -> Client {
 /// A client of this kind.
 fn client_like(profile: Profile) -> Client {
     Client::start(env!("CARGO_BIN_EXE_gradus"), profile)
+}
+
+/// What is shown at a place of a document, and where the thing there begins and
+/// ends.
+#[track_caller]
+fn hover_at(client: &mut Client, name: &str, at: Position) -> Option<(MarkupContent, Range)> {
+    let params = HoverParams {
+        text_document_position_params: client.at(name, at),
+        work_done_progress_params: Default::default(),
+    };
+    let hover = client.request::<HoverRequest>(params)?;
+    match hover.contents {
+        HoverContents::Markup(markup) => Some((markup, hover.range.expect("a range"))),
+        other => panic!("no markup: {other:?}"),
+    }
 }

@@ -2,6 +2,7 @@ use std::cmp::Ordering;
 use std::fmt::{self, Display, Formatter};
 
 use crate::Relation;
+use crate::notation::unit_in_milliseconds;
 
 /// The value of a variable, in whatever is run: a ladder, a grafcet, a
 /// scenario.
@@ -159,12 +160,7 @@ pub fn duration(text: &str) -> Option<i64> {
             .unwrap_or(rest.len());
         let unit = match &*rest[..letters].to_ascii_lowercase() {
             "us" => 0.001,
-            "ms" => 1.0,
-            "s" => 1_000.0,
-            "m" => 60_000.0,
-            "h" => 3_600_000.0,
-            "d" => 86_400_000.0,
-            _ => return None,
+            other => unit_in_milliseconds(other)?,
         };
         total += number * unit;
         rest = rest[letters..].trim_start_matches('_');

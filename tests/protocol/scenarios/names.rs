@@ -10,14 +10,14 @@ use tower_lsp::ls_types::{
 };
 
 use super::{LADDER, SCENARIO, SPEC, tank, with_cursor};
-use crate::client_like;
-use crate::hover::markup_at;
 use crate::rename::after;
+use crate::{client_like, hover_at};
 
 fn hover(context: &str) -> String {
     let (mut client, marked) = tank(&with_cursor(context));
-    let at = client.at("fill.scenario", marked.position(0, false));
-    markup_at(&mut client, at)
+    let (markup, _) =
+        hover_at(&mut client, "fill.scenario", marked.position(0, false)).expect("a hover");
+    markup.value
 }
 
 #[test]

@@ -222,6 +222,7 @@ impl LanguageServer for Server {
 
     async fn did_save(&self, params: DidSaveTextDocumentParams) {
         let key = FileKey::of(&params.text_document.uri);
+        self.shared.checked.begin_anew();
         self.shared.state.change(|world| {
             world.disk.forget(&key);
             world.settings.forget(&key);

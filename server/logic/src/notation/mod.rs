@@ -28,4 +28,5 @@ mod time;
 pub use lexer::{Lexer, Token, TokenKind};
 pub use parser::{Node, NodeKind, Problem, expression, one_factor, parse};
 pub use printer::{is_literal, quoted, quoted_value, write, write_factor};
+pub(crate) use time::unit_in_milliseconds;
 pub use time::{milliseconds, time};

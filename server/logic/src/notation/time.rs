@@ -51,7 +51,8 @@ pub fn time(milliseconds: u64) -> String {
     }
 }
 
-fn unit_in_milliseconds(unit: &str) -> Option<f64> {
+/// The length of a unit, in milliseconds.
+pub(crate) fn unit_in_milliseconds(unit: &str) -> Option<f64> {
     Some(match unit {
         "ms" => 1.0,
         "s" => 1_000.0,
