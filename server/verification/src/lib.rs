@@ -6,10 +6,16 @@
 //!   judged by them. [`inputs`] tells what is free in each scan: what the plant
 //!   gives, when timers run out, and what is not followed.
 //!
+//! * [`verify`] asks whether the two do the same, and gives a [`Verification`].
+//!   What the engines of `proof` find is run by the interpreters before it is
+//!   told, as a [`Trace`]. [`rungs_of`] names the rungs that decide.
+//! * [`alone`] gives one side as a netlist for other tools.
+//!
 //! What cannot be translated as it is meant is not translated: a [`Refusal`]
 //! says why. What is left free, since time or numbers without bounds decide it,
 //! is told by its [`inputs::Source`].
 
+pub mod alone;
 pub mod chart;
 mod compared;
 mod frame;

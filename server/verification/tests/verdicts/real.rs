@@ -32,7 +32,10 @@ fn the_chart_of_a_coded_grafcet_is_equal_when_both_are_settled() {
     let limits = Limits::default();
     let found = verify(&program, &spec, Timing::Settled, &limits).expect("a translation");
     assert_eq!(told(&found.verdict), "equivalent");
-    assert_eq!((found.outputs.len(), found.missing.len(), found.rules), (9, 0, 0));
+    assert_eq!(
+        (found.outputs.len(), found.missing.len(), found.rules),
+        (9, 0, 0)
+    );
     assert_eq!(found.deadlock, None);
 }
 
