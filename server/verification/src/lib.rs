@@ -1,5 +1,35 @@
 //! Whether a grafcet does what its ladder does.
 //!
+//! ```
+//! use proof::Limits;
+//! use verification::{Timing, Verdict, verify};
+//!
+//! let program = "input start\ninput stop\noutput motor\nrung: (start + motor) * /stop -> motor\n";
+//! let spec = "\
+//! Step X0, Xrun
+//! Transition t1, t2
+//! Input start, stop
+//! Output motor
+//! Marking X0
+//! Transitions:
+//! t1: X0*start |- @Xrun
+//! t2: Xrun*stop |- @X0
+//! Steps:
+//! Xrun: |- motor
+//! ";
+//! let ladder = ladder::read(program.as_bytes()).program;
+//! let limits = Limits::default();
+//! // Both buttons at once: the grafcet runs in a circle, where the ladder stops.
+//! let found = verify(&ladder, &grafcet::read(spec).spec, Timing::Scan, &limits)?;
+//! let Verdict::Different(difference) = found.verdict else { panic!("they differ") };
+//! assert_eq!(difference.trace.steps.len(), 1);
+//!
+//! let spec = spec.replace("X0*start", "X0*start*/stop");
+//! let found = verify(&ladder, &grafcet::read(&spec).spec, Timing::Scan, &limits)?;
+//! assert_eq!(found.verdict, Verdict::Equivalent);
+//! # Ok::<(), verification::Refusal>(())
+//! ```
+//!
 //! * [`program`] makes a transition system of a ladder, [`chart`] one of a
 //!   grafcet beside it. Both follow the interpreters of `ladder::scan` and
 //!   `grafcet::evolution`, scan by scan, with signals in place of values, and are

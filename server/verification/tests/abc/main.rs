@@ -20,38 +20,23 @@ use std::path::Path;
 
 use grafcet::Spec;
 use ladder::Program;
-use logic::Name;
 use proof::{Limits, Netlist};
-use verification::program::Bounds;
-use verification::{Timing, Verdict, chart, program, verify};
+use verification::{Timing, Verdict, alone, verify};
 
 use random::Random;
 use sketch::Sketch;
 
 const PAIRS: usize = 220;
 
-/// Each side as a netlist by itself, with the outputs of the spec.
-fn sides(ladder: &Program, spec: &Spec, outputs: &[Name]) -> [Netlist; 2] {
-    let bounds = Bounds::default();
-    let ladder = program::follow(ladder, None, &bounds).expect("a ladder");
-    let chart = chart::follow(spec, None, 3, &bounds).expect("a chart");
-    let mut sides = [ladder.netlist.clone(), chart.netlist.clone()];
+/// Each side as a netlist by itself.
+fn sides(ladder: &Program, spec: &Spec) -> [Netlist; 2] {
+    let limits = Limits::default();
+    let ladder = alone::of_ladder(ladder, &limits).expect("a ladder");
+    let mut sides = [ladder, alone::of_spec(spec, &limits).expect("a chart")];
     // What one side does not look at is an input of the pair all the same.
     for side in &mut sides {
         for input in sketch::INPUTS {
             side.input(input);
-        }
-    }
-    for name in outputs {
-        for (side, cases) in sides
-            .iter_mut()
-            .zip([ladder.cases(name), chart.cases(name)])
-        {
-            let on = cases.iter().find(|(value, _)| value.is_on());
-            side.output(
-                name.clone(),
-                on.map_or(proof::Signal::FALSE, |(_, when)| *when),
-            );
         }
     }
     sides
@@ -102,7 +87,7 @@ fn abc_agrees_about_generated_ladders_and_their_specs() {
         assert!(pair % 2 == 1 || said.is_none(), "{said:?}\n{texts}");
         let says = tool::model_checked(&abc, &folder, &found.question, said);
         assert_eq!(said, says, "{texts}");
-        let [left, right] = sides(&ladder.program, &spec.spec, &found.outputs);
+        let [left, right] = sides(&ladder.program, &spec.spec);
         assert_eq!(
             tool::dsec(&abc, &folder, [&left, &right]),
             said.is_none(),
