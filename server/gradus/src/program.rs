@@ -50,10 +50,15 @@ impl Ladder {
 /// Reads the ladder at `path`. `None` if there is none; the user has been told
 /// why, and the command ends with [`Status::Usage`].
 pub fn read(path: &Path, io: &mut Io) -> std::io::Result<Option<Ladder>> {
+    match bytes(path, io)? {
+        Some(bytes) => of_bytes(path, bytes, io),
+        None => Ok(None),
+    }
+}
+
+/// The same of bytes that have been read from there.
+pub fn of_bytes(path: &Path, bytes: Vec<u8>, io: &mut Io) -> std::io::Result<Option<Ladder>> {
     let paint = io.aside_paint();
-    let Some(bytes) = bytes(path, io)? else {
-        return Ok(None);
-    };
     let name = printable(&input::name(path));
     let other = match language::of(&bytes) {
         language::File::Ladder(_) => None,

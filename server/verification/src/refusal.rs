@@ -24,6 +24,9 @@ pub enum Refusal {
     RuleAboutTime(Name),
     /// A rule or property speaks of a number that is not followed: its label.
     RuleAboutNumber(Name),
+    /// The grafcet may find no stable situation, or it is not known that it
+    /// always does.
+    NotStable,
     /// The values of the variables do not settle within the limits.
     TooManyValues,
     /// More gates, or more work to find the values of its numbers, than the limits
@@ -62,6 +65,7 @@ impl Display for Refusal {
             Self::RuleAboutNumber(rule) => {
                 write!(f, "`{rule}` speaks of a number that is not followed")
             }
+            Self::NotStable => f.write_str("it may find no stable situation"),
             Self::TooManyValues => f.write_str("the values of its numbers do not settle"),
             Self::TooLarge => f.write_str("it is too large for the effort that is allowed"),
             Self::Cancelled => f.write_str("stopped"),

@@ -1,11 +1,14 @@
-//! `gradus generate`: other forms of a spec's grafcet.
+//! `gradus generate`: other forms of a spec's grafcet, and of ladders as
+//! netlists.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
-use grafcet::Grafcet;
+use grafcet::Spec;
 use ladder::Format;
+use proof::{Limits, Netlist, aiger, blif};
+use verification::{Refusal, alone};
 
 use crate::file;
 use crate::input;
@@ -29,19 +32,24 @@ JSON:
 
 dot is the language of Graphviz.
 
-Exit status: 1 if the text of the spec has errors; what was understood is written
-all the same. 2 if a file cannot be read or written, or would take the place of a
-ladder or a spec.
+blif and aiger are netlists of gates and latches for ABC, Yosys and model checkers:
+what a scan computes, of a spec or of a ladder. docs/verify.md tells how they are
+made; `gradus verify --export` writes both sides and the question.
+
+Exit status: 1 if the text has errors; what was understood is written all the
+same. 2 if a file cannot be read or written, would take the place of a ladder or a
+spec, or cannot be made a netlist of.
 
 Examples:
   gradus generate tank.grafcet --to dot | dot -Tsvg -o tank.svg
-  gradus generate tank.grafcet --to json -o tank.json";
+  gradus generate tank.grafcet --to json -o tank.json
+  gradus generate tank.ladder --to blif -o tank.blif";
 
-/// Write other forms of a spec: JSON or dot.
+/// Write other forms of a spec, JSON, dot or a netlist, and ladders as netlists.
 #[derive(Debug, clap::Args)]
 #[command(after_long_help = DETAILS)]
 pub struct Args {
-    /// The spec; `-` is standard input.
+    /// The spec, or for a netlist the ladder; `-` is standard input.
     #[arg(value_name = "SPEC")]
     spec: PathBuf,
 
@@ -60,23 +68,67 @@ enum Form {
     Json,
     /// For pictures, by Graphviz.
     Dot,
+    /// A netlist for ABC, Yosys and others.
+    Blif,
+    /// A netlist for model checkers, as text.
+    Aiger,
+}
+
+/// What there is to write.
+enum Subject {
+    Spec(Box<Spec>),
+    Ladder(program::Ladder),
 }
 
 impl Form {
-    fn of(self, grafcet: &Grafcet) -> String {
-        match self {
-            Self::Json => format!("{:#}\n", generate::to_json(grafcet)),
-            Self::Dot => generate::to_dot(grafcet),
-        }
+    fn of(self, subject: &Subject, limits: &Limits) -> Result<String, Refusal> {
+        let netlist = || match subject {
+            Subject::Spec(spec) => alone::of_spec(spec, limits),
+            Subject::Ladder(ladder) => alone::of_ladder(&ladder.program, limits),
+        };
+        Ok(match (self, subject) {
+            (Self::Json, Subject::Spec(spec)) => {
+                format!("{:#}\n", generate::to_json(&spec.grafcet))
+            }
+            (Self::Dot, Subject::Spec(spec)) => generate::to_dot(&spec.grafcet),
+            (Self::Aiger, _) => aiger::ascii(&netlist()?),
+            _ => written(&netlist()?, subject),
+        })
     }
+
+    fn takes_ladders(self) -> bool {
+        matches!(self, Self::Blif | Self::Aiger)
+    }
+}
+
+fn written(netlist: &Netlist, subject: &Subject) -> String {
+    let name = match subject {
+        Subject::Spec(spec) => spec.grafcet.name.clone(),
+        Subject::Ladder(ladder) => Some(ladder.program.name.clone()),
+    };
+    let name = name.filter(|name| !name.is_empty());
+    blif::text(netlist, name.as_deref().unwrap_or("gradus"))
 }
 
 /// Writes the form that was asked for.
 pub fn run(args: &Args, io: &mut Io) -> std::io::Result<Status> {
-    let Some((grafcet, status)) = read(&args.spec, io)? else {
+    let Some((subject, status)) = read(args, io)? else {
         return Ok(Status::Usage);
     };
-    let text = args.to.of(&grafcet);
+    let limits = Limits {
+        cancel: io.cancel().clone(),
+        ..Limits::default()
+    };
+    let text = match args.to.of(&subject, &limits) {
+        Ok(text) => text,
+        Err(Refusal::Cancelled) => return Ok(Status::Interrupted),
+        Err(refusal) => {
+            let name = printable(&input::name(&args.spec));
+            let reason = printable(&refusal.to_string());
+            io.complain(&format!("{name}: cannot be made a netlist: {reason}"));
+            return Ok(Status::Usage);
+        }
+    };
     let Some(path) = args.output.as_deref().filter(|it| !is_standard_input(it)) else {
         io.answer().write_all(text.as_bytes())?;
         return Ok(status);
@@ -98,14 +150,22 @@ pub fn run(args: &Args, io: &mut Io) -> std::io::Result<Status> {
     }
 }
 
-/// The grafcet of the spec at `path`, and how a command ends that has made
-/// something of it. `None` if there is none; the user has been told why.
-fn read(path: &Path, io: &mut Io) -> std::io::Result<Option<(Grafcet, Status)>> {
+/// What the file holds, and how a command ends that has made something of it.
+/// `None` if it is of no use; the user has been told why.
+fn read(args: &Args, io: &mut Io) -> std::io::Result<Option<(Subject, Status)>> {
+    let path = &args.spec;
     let name = printable(&input::name(path));
     let Some(bytes) = program::bytes(path, io)? else {
         return Ok(None);
     };
     let language::File::Spec(text) = language::of(&bytes) else {
+        if args.to.takes_ladders() {
+            let ladder = program::of_bytes(path, bytes, io)?;
+            return Ok(ladder.map(|it| {
+                let status = it.status();
+                (Subject::Ladder(it), status)
+            }));
+        }
         let why = "this is no spec; `gradus convert` makes one of a ladder";
         io.complain(&format!("{name}: {why}"));
         return Ok(None);
@@ -115,7 +175,7 @@ fn read(path: &Path, io: &mut Io) -> std::io::Result<Option<(Grafcet, Status)>> 
         0 => Status::Done,
         _ => Status::ProblemsFound,
     };
-    Ok(Some((reading.spec.grafcet, status)))
+    Ok(Some((Subject::Spec(Box::new(reading.spec)), status)))
 }
 
 /// What the file at `path` holds that nothing brings back, if it holds such a

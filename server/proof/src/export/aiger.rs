@@ -7,6 +7,8 @@
 
 use std::fmt::Write;
 
+use rustc_hash::FxHashSet;
+
 use crate::{Initial, Netlist, Signal};
 
 /// The netlist as text.
@@ -133,19 +135,27 @@ fn symbols(netlist: &Netlist) -> String {
     } else {
         'b'
     };
-    let inputs = netlist.inputs.iter().map(|it| ('i', &it.name));
-    let latches = netlist.latches.iter().map(|it| ('l', &it.name));
-    let roots = netlist.shown().iter().map(|it| (shown, &it.name));
+    // Readers take two things of one name for one: inputs and outputs, by which
+    // files are compared, keep theirs, and latches give way.
+    let mut taken = FxHashSet::default();
+    let mut unique = |name: &str| {
+        let plain = name.replace(['\n', '\r'], " ");
+        let mut name = plain.clone();
+        let mut copies = 1;
+        while !taken.insert(name.clone()) {
+            copies += 1;
+            name = format!("{plain}~{copies}");
+        }
+        name
+    };
+    let inputs: Vec<String> = netlist.inputs.iter().map(|it| unique(&it.name)).collect();
+    let roots: Vec<String> = netlist.shown().iter().map(|it| unique(&it.name)).collect();
+    let latches: Vec<String> = netlist.latches.iter().map(|it| unique(&it.name)).collect();
     let mut text = String::new();
-    let mut number = (' ', 0);
-    for (kind, name) in inputs.chain(latches).chain(roots) {
-        number = if number.0 == kind {
-            (kind, number.1 + 1)
-        } else {
-            (kind, 0)
-        };
-        let name = name.replace(['\n', '\r'], " ");
-        let _ = writeln!(text, "{kind}{} {name}", number.1);
+    for (kind, names) in [('i', inputs), ('l', latches), (shown, roots)] {
+        for (number, name) in names.iter().enumerate() {
+            let _ = writeln!(text, "{kind}{number} {name}");
+        }
     }
     text
 }
@@ -158,14 +168,23 @@ mod tests {
     #[test]
     fn a_netlist_is_written_as_text() {
         let expected = "aag 5 2 1 1 2\n2\n4\n6 10\n10\n8 7 3\n10 9 5\n\
-                        i0 start\ni1 stop\nl0 motor\no0 motor\n";
+                        i0 start\ni1 stop\nl0 motor~2\no0 motor\n";
         assert_eq!(ascii(&seal_in()), expected);
+    }
+
+    #[test]
+    fn a_name_is_an_input_s_or_a_latch_s_once() {
+        let mut netlist = Netlist::default();
+        netlist.input("motor");
+        netlist.latch("motor", false);
+        netlist.latch("motor", false);
+        assert_eq!(symbols(&netlist), "i0 motor\nl0 motor~2\nl1 motor~3\n");
     }
 
     #[test]
     fn the_binary_form_says_the_same_in_differences() {
         let expected =
-            b"aig 5 2 1 1 2\n10\n10\n\x01\x04\x01\x04i0 start\ni1 stop\nl0 motor\no0 motor\n";
+            b"aig 5 2 1 1 2\n10\n10\n\x01\x04\x01\x04i0 start\ni1 stop\nl0 motor~2\no0 motor\n";
         assert_eq!(binary(&seal_in()), expected);
     }
 

@@ -3,6 +3,7 @@
 mod abc;
 mod explicit;
 mod plan;
+mod tool;
 
 use explicit::shortest_difference;
 use plan::{Operand, Plan, plans};

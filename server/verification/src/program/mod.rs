@@ -89,6 +89,7 @@ pub fn follow(
     let machine = Machine::new(program);
     let given = given(program, &machine);
     let (orders, first_scan) = (orders(program, &machine)?, machine.first_scan());
+    let looks_at_first_scan = reads(program, first_scan);
     let mut knowledge = Knowledge::default();
     for (name, constant) in spec.into_iter().flat_map(compared::constants) {
         let name = machine.names().resolved(&name, &|_| None).into_owned();
@@ -104,7 +105,9 @@ pub fn follow(
             memories: Memories::default(),
             bounds,
         };
-        pass.begin(first_scan)?;
+        if looks_at_first_scan {
+            pass.begin(first_scan)?;
+        }
         for order in &orders {
             pass.order(order)?;
         }
@@ -134,6 +137,13 @@ pub fn follow(
         }
     }
     Err(Refusal::TooManyValues)
+}
+
+fn reads(program: &Program, name: &Name) -> bool {
+    program.rungs().any(|(_, rung)| {
+        let mut elements = rung.network.elements();
+        elements.any(|(_, element)| element.kind.reads().iter().any(|it| it.name == *name))
+    })
 }
 
 fn addresses(program: &Program) -> HashMap<String, Name> {

@@ -2,6 +2,7 @@
 
 mod neutralization;
 mod product;
+mod real;
 mod timing;
 
 use std::sync::Arc;
