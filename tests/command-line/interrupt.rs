@@ -78,3 +78,38 @@ fn a_terminal_shows_what_takes_long_and_clears_it_in_the_end() {
     // The code that erases a line.
     assert!(shown.trim_end().ends_with("\u{1b}[2K"), "{shown:?}");
 }
+
+/// A counter of forty bits, which are all on after years only: no proof finds
+/// a shorter way.
+#[test]
+fn ctrl_c_ends_a_proof_with_130_and_no_answer() {
+    let gradus = gradus();
+    let bits: Vec<String> = (0..40).map(|at| format!("b{at}")).collect();
+    let mut ladder = String::from("input go\nrung: go -> c0\n");
+    for (at, bit) in bits.iter().enumerate() {
+        ladder += &format!("rung: {bit} * c{at} -> c{}\n", at + 1);
+        ladder += &format!("rung: {bit} * /c{at} + /{bit} * c{at} -> {bit}\n");
+    }
+    gradus.write("counter.ladder", ladder);
+    let (names, all) = (bits.join(", "), bits.join("*"));
+    gradus.write(
+        "counter.grafcet",
+        format!(
+            "Step X0\nTransition t\nInput go, {names}\nMarking X0\nTransitions:\n\
+             t: X0*go |- @X0\nNever:\nn: {all}\n"
+        ),
+    );
+    let child = gradus
+        .command(&["verify", "counter.ladder", "--effort", "1000000"])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the executable");
+    std::thread::sleep(Duration::from_millis(700));
+    let sent = Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status();
+    assert!(sent.expect("`kill`").success());
+    let ended = Ended::of(child);
+    assert_eq!((ended.status, ended.answer.as_str()), (Some(130), ""));
+}

@@ -7,6 +7,9 @@ use source::Span;
 
 use crate::Timing;
 
+/// So many gates are evaluated to make a trace simpler.
+const MOST_WORK: usize = 200_000_000;
+
 /// What was done and what came of it, step by step.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Trace {
@@ -84,6 +87,9 @@ impl Trace {
 
 /// The trace with no change of an input that is not needed: what violates a
 /// property in its last step still does so there, and nothing forbids it.
+///
+/// It costs a replay for each change; of a long trace only as many are tried as
+/// are worth it.
 pub(crate) fn simplified(netlist: &Netlist, trace: &Signals, bad: &[Signal]) -> Signals {
     let mut judge = netlist.clone();
     for signal in bad {
@@ -99,12 +105,14 @@ pub(crate) fn simplified(netlist: &Netlist, trace: &Signals, bad: &[Signal]) -> 
     if !is_good(&best) {
         return best;
     }
+    let mut left = MOST_WORK / (netlist.size() * trace.scans()).max(1);
     // Twice: what one change allows may be found only after another.
     for _ in 0..2 {
         for scan in 0..best.inputs.len() {
             for input in 0..best.inputs[scan].len() {
                 let before = scan.checked_sub(1).is_some_and(|at| best.inputs[at][input]);
-                if best.inputs[scan][input] != before {
+                if best.inputs[scan][input] != before && left > 0 {
+                    left -= 1;
                     let mut tried = best.clone();
                     tried.inputs[scan][input] = before;
                     if is_good(&tried) {

@@ -2,7 +2,7 @@
 
 use grafcet::Spec;
 use grafcet::evolution::Unstable;
-use ladder::Program;
+use ladder::{Class, Program};
 use logic::Name;
 use proof::{Gates, Limits, Netlist, Proof, Signal, Status, Verdict as Found, Why, check};
 
@@ -57,6 +57,8 @@ pub struct Verification {
     pub outputs: Vec<Name>,
     /// Outputs of the spec that the ladder does not know.
     pub missing: Vec<Name>,
+    /// Outputs that the ladder declares and writes, and the spec does not have.
+    pub absent: Vec<Name>,
     /// The properties of the spec, each by itself.
     pub properties: Vec<(Name, Verdict)>,
     /// What is left free, since time or numbers that are not followed decide it.
@@ -118,6 +120,8 @@ pub enum What {
 pub enum Reason {
     /// The limits were reached, or somebody asked to stop.
     Limits(Why),
+    /// There is nothing to compare: the spec has no output that the ladder knows.
+    Nothing,
     /// These outputs hold numbers that are not followed.
     Numbers(Vec<Name>),
     /// A sequence was found, but the interpreters do not confirm it: it needs
@@ -206,6 +210,7 @@ impl<'v> Verifier<'v> {
                 verdict,
                 rules: self.spec.environment.len(),
                 missing: system.missing.clone(),
+                absent: self.absent(&system),
                 properties,
                 free: free(&system),
                 question: question(&system, self.spec),
@@ -214,6 +219,19 @@ impl<'v> Verifier<'v> {
                 states,
             });
         }
+    }
+
+    fn absent(&self, system: &System) -> Vec<Name> {
+        let resolved = |name: &Name| self.followed.resolved(name);
+        let known = system.outputs.iter().chain(&system.numbers);
+        let known: Vec<Name> = known.map(resolved).collect();
+        let declared = self.program.declarations.iter();
+        let outputs =
+            declared.filter(|it| it.class == Class::Output && self.followed.writes(&it.name));
+        let names = outputs.map(|it| it.name.clone());
+        names
+            .filter(|name| !known.contains(&resolved(name)))
+            .collect()
     }
 
     fn system(&self) -> Result<System, Refusal> {
@@ -239,6 +257,15 @@ impl<'v> Verifier<'v> {
         let asked = comparison(system);
         let report = check(&asked, self.limits);
         let verdict = match report.verdict {
+            _ if system.outputs.is_empty()
+                && system.numbers.is_empty()
+                && self.spec.never.is_empty() =>
+            {
+                Verdict::Unknown {
+                    bound: 0,
+                    why: Reason::Nothing,
+                }
+            }
             Found::Equivalent if !system.numbers.is_empty() => Verdict::Unknown {
                 bound: 0,
                 why: Reason::Numbers(system.numbers.clone()),

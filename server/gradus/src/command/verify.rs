@@ -54,7 +54,7 @@ JSON:
     \"shortest\", \"brief\", \"bound\", \"why\", \"states\", \"deadlock\",
     \"trace\": [{\"elapsed\", \"inputs\": {}, \"ladder\": {}, \"grafcet\": {\"active\": [],
       \"outputs\": {}}}],
-    \"outputs\": [], \"not_in_ladder\": [], \"free\": [],
+    \"outputs\": [], \"not_in_ladder\": [], \"not_in_spec\": [], \"free\": [],
     \"rungs\": [{\"output\", \"scope\", \"rung\", \"comment\", \"depends_on\"}],
     \"properties\": [{\"name\", \"verdict\", \"what\", \"shortest\", \"brief\", \"bound\",
       \"why\", \"trace\": []}]}

@@ -173,3 +173,25 @@ fn a_number_that_is_compared_takes_the_values_that_can_be_told_apart() {
     let same = spec.replace("60", "50");
     assert_told(&verified(ladder, &same, Timing::Scan).verdict, "equivalent");
 }
+
+#[test]
+fn what_is_not_compared_is_told() {
+    let ladder = "program P\ninput a\noutput q\noutput r\nrung: a -> q\nrung: /a -> r\n";
+    let spec = |outputs: &str| {
+        format!(
+            "Step X0\nTransition t\nInput a\nOutput {outputs}\nMarking X0\nTransitions:\nt: X0*a |- @X0\nSteps:\nX0: a |- q\nX0: |- s\n"
+        )
+    };
+    let found = verified(ladder, &spec("q, s"), Timing::Scan);
+    assert_told(&found.verdict, "equivalent");
+    assert_eq!(
+        (found.missing, found.absent),
+        (vec!["s".into()], vec!["r".into()])
+    );
+    let found = verified(
+        "program P\ninput a\noutput p\nrung: a -> p\n",
+        &spec("q, s"),
+        Timing::Scan,
+    );
+    assert_told(&found.verdict, "unknown after 0: Nothing");
+}

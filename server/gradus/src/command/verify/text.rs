@@ -34,6 +34,7 @@ fn verdict(found: &Verification, paint: Paint) -> String {
         Timing::Settled => "when both sides rest",
     };
     let line = match &found.verdict {
+        Verdict::Equivalent if found.outputs.is_empty() => "no outputs are compared".to_owned(),
         Verdict::Equivalent => format!(
             "{}: {outputs} equal {timing}, {}",
             paint.bold("equivalent"),
@@ -89,6 +90,9 @@ fn unknown(bound: usize, why: &Reason, timing: Timing, paint: Paint) -> String {
         Reason::Limits(Why::Cancelled) => "it was stopped".to_owned(),
         Reason::Limits(Why::Unconfirmed) => {
             "what was found did not happen again; this is a fault of Gradus".to_owned()
+        }
+        Reason::Nothing => {
+            "there is nothing to compare: the spec has no output that the ladder knows".to_owned()
         }
         Reason::Numbers(names) => {
             format!(
@@ -244,6 +248,10 @@ fn notes(found: &Verification) -> String {
     if !found.missing.is_empty() {
         let names = names_of(&found.missing);
         out += &format!("  not compared, since the ladder does not know them: {names}\n");
+    }
+    if !found.absent.is_empty() {
+        let names = names_of(&found.absent);
+        out += &format!("  not compared, since the spec does not have them: {names}\n");
     }
     if let Some(steps) = found.deadlock {
         out += &format!(
