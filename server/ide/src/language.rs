@@ -27,6 +27,7 @@ const SECTIONS: [&str; 4] = ["Transitions:", "Steps:", "Environment:", "Never:"]
 /// What the file that holds `bytes` is.
 pub fn of(bytes: &[u8]) -> File<'_> {
     match std::str::from_utf8(bytes) {
+        Ok(text) if has_plain_rung(text) => File::Ladder(bytes),
         Ok(text) if is_spec(text) => File::Spec(text),
         Ok(text) if is_scenario(text) => File::Scenario(text),
         _ => File::Ladder(bytes),
@@ -54,6 +55,22 @@ fn is_spec(text: &str) -> bool {
     }
     lines().any(|line| SECTIONS.contains(&line) || is_rule(line))
         || lines().next().is_some_and(declares_steps)
+}
+
+/// Whether some line begins with the word as it is mostly written. An editor
+/// asks after every keystroke what a text is, and this tells it of large
+/// ladders without looking at each of their lines.
+fn has_plain_rung(text: &str) -> bool {
+    text.match_indices("rung").any(|(at, _)| {
+        let (before, rest) = text.split_at(at);
+        let line = before.rsplit('\n').next().unwrap_or_default();
+        line.trim_matches(['\u{feff}', ' ', '\t']).is_empty()
+            && begins_rung(rest.lines().next().unwrap_or_default())
+            && !text
+                .trim_start_matches('\u{feff}')
+                .trim_start()
+                .starts_with('<')
+    })
 }
 
 /// Whether the line begins a rung of a `.ladder` text.
