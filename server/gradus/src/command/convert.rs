@@ -42,7 +42,7 @@ that is no spec is never replaced.
 
 Accepting:
   none       nothing; without any decision every state is a small grafcet of two
-             steps, which does what the ladder does
+             steps, which mostly does what the ladder does; the verdict tells
   handover   every pair of which the end of the one is the start of the other
   witnessed  not yet: it needs input sequences that this version cannot search for
   all        every suggestion, also those that are merely possible
