@@ -1,9 +1,9 @@
-//! Lenses and hints that are out of date though their document is not.
+//! Lenses, hints and findings that are out of date though their document is not.
 //!
-//! A client asks for the lenses and hints of a document again when that document
-//! changes. Those of a scenario change with its ladder and its spec too, and
-//! those of a ladder with the scan that is shown in it. So the client is asked to
-//! ask again, once for many changes: when somebody types, that is in the pause.
+//! A client asks for those of a document again when that document changes. Those
+//! of a spec change with its ladder too, those of a scenario with both, and those
+//! of a ladder with the scan that is shown in it. So the client is asked to ask
+//! again, once for many changes: when somebody types, that is in the pause.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -31,10 +31,12 @@ impl Changes {
     }
 }
 
-/// Asks the client to ask for lenses and hints again, in the next pause.
+/// Asks the client to ask for lenses, hints and findings again, in the next
+/// pause.
 pub fn ask_again(shared: &Arc<Shared>) {
     let abilities = shared.state.world().abilities;
-    if !abilities.refreshes_lenses && !abilities.refreshes_hints {
+    let refreshes_findings = abilities.refreshes_diagnostics && abilities.pulls_diagnostics;
+    if !abilities.refreshes_lenses && !abilities.refreshes_hints && !refreshes_findings {
         return;
     }
     let shared = Arc::clone(shared);
@@ -49,6 +51,9 @@ pub fn ask_again(shared: &Arc<Shared>) {
         }
         if abilities.refreshes_hints {
             answer(shared.client.inlay_hint_refresh()).await;
+        }
+        if refreshes_findings {
+            answer(shared.client.workspace_diagnostic_refresh()).await;
         }
     });
 }

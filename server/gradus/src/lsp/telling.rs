@@ -149,8 +149,12 @@ pub fn everything(shared: &Arc<Shared>) {
 /// those of the documents that depend on it.
 pub fn changed(shared: &Arc<Shared>, key: &FileKey) {
     findings(shared, key);
-    for partner in shared.state.world().open_partners(key) {
+    let partners = shared.state.world().open_partners(key);
+    for partner in &partners {
         findings(shared, &partner.key);
+    }
+    if !partners.is_empty() {
+        shown::ask_again(shared);
     }
     scenarios(shared, key);
     status(shared, key);
