@@ -125,6 +125,7 @@ const RUNGS: &[&str] = &[
     "rung: q# * b# -> reset q#, set q#",
     "rung: (q#*t#.Q + q#) * /q# -> q#",
     "rung: q# -> TON(t#, 5s)",
+    "rung: a# * /t#.Q -> TON(t#, 5s)",
     "rung: q# * t#.Q -> y#",
     "rung: (y# + q#) * /y# -> q#",
     "rung: rise(a#*b#) * q# -> y#",
@@ -220,6 +221,23 @@ proptest! {
         }
         let at_once = analyse(&read(&text.join("\n")), &budget);
         prop_assert_eq!(said(&analysis), said(&at_once));
+    }
+}
+
+#[test]
+fn an_output_that_only_its_timer_asks_for_any_more_stays() {
+    let budget = Budget::default();
+    let texts = [
+        "rung: a * /t.Q -> TON(t, 5s)\nrung: t.Q -> y",
+        "rung: a * /b -> TON(t, 5s)\nrung: t.Q -> y",
+        "rung: a * /b -> TON(t, 5s)\nrung: b -> y",
+    ];
+    let mut edition = Edition::new(texts[0].into());
+    let mut analysis = analyse(&edition.reading.program, &budget);
+    for text in &texts[1..] {
+        edition = reread(&edition, (*text).into());
+        analysis = analyse_after(&analysis, &edition.reading.program, &budget);
+        assert_eq!(said(&analysis), said(&analyse(&read(text), &budget)));
     }
 }
 

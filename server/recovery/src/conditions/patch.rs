@@ -43,10 +43,7 @@ impl Beyond {
             words: FxHashSet::default(),
         };
         for (place, solved) in rungs.iter() {
-            let is_named = |atom: &AtomId| match atoms.atom(*atom) {
-                Atom::Variable(name) => names.uses(name).is_some_and(|it| it.stands_in(place)),
-                _ => false,
-            };
+            let is_named = |atom: &&AtomId| is_named(**atom, place, names, atoms);
             let asked = solved.atoms.iter().filter(|atom| !is_named(atom));
             beyond.atoms.extend(asked);
             for event in &solved.events {
@@ -72,6 +69,14 @@ impl Beyond {
         let is_bit =
             |(word, bit): (&str, &str)| bit.parse::<u32>().is_ok() && self.words.contains(word);
         self.words.contains(name) || name.rsplit_once('.').is_some_and(is_bit)
+    }
+}
+
+/// Whether a contact or a coil of a rung names an atom.
+fn is_named(atom: AtomId, rung: (usize, usize), names: &Names, atoms: &Atoms) -> bool {
+    match atoms.atom(atom) {
+        Atom::Variable(name) => names.uses(name).is_some_and(|it| it.stands_in(rung)),
+        _ => false,
     }
 }
 
@@ -273,6 +278,15 @@ impl Patch<'_> {
                 let asked = it.atoms.iter().copied();
                 asked.filter(|id| Some(*id) > last_name).collect()
             };
+            // A contact of a timer's output may have gone from the timer's own
+            // rung, which goes on asking for that output.
+            let is_known = |atom: &AtomId| {
+                is_named(*atom, place, &after.names, &after.atoms)
+                    || self.was.beyond.atoms.contains(atom)
+            };
+            if !solved.atoms.iter().all(is_known) {
+                return None;
+            }
             if asked(before) != asked(&solved) || before.opaque != solved.opaque {
                 return None;
             }
