@@ -11,6 +11,7 @@ mod printable;
 mod sarif;
 mod text;
 mod uri;
+mod values;
 
 use std::path::PathBuf;
 
@@ -20,6 +21,7 @@ pub use json::json;
 pub use printable::printable;
 pub use sarif::sarif;
 pub use text::{text, unreadable};
+pub use values::on;
 
 /// What was found in one file.
 pub struct Findings {

@@ -1,12 +1,11 @@
 //! A simulation for people: a line for each scan, and what was wrong below it.
 
 use logic::notation::time;
-use logic::{Datum, Name};
 use recovery::simulation::{Row, Simulation, Subject};
 use scenario::Scenario;
 
 use crate::colour::Paint;
-use crate::report::printable;
+use crate::report::{on, printable};
 
 /// Blanks between two columns.
 const GAP: usize = 2;
@@ -106,7 +105,11 @@ impl Column {
     }
 
     fn ladder(context: &Context<'_>) -> String {
-        on(&context.simulation.ladder, &context.row.values.ladder)
+        on(context
+            .simulation
+            .ladder
+            .iter()
+            .zip(&context.row.values.ladder))
     }
 
     fn active(context: &Context<'_>) -> String {
@@ -114,26 +117,15 @@ impl Column {
     }
 
     fn spec(context: &Context<'_>) -> String {
-        on(&context.simulation.grafcet, &context.row.values.grafcet)
+        on(context
+            .simulation
+            .grafcet
+            .iter()
+            .zip(&context.row.values.grafcet))
     }
 
     fn differ(context: &Context<'_>) -> String {
         printable(&context.row.differences.join(" "))
-    }
-}
-
-/// The variables that are on, numbers with their values; `-` if none is.
-fn on(names: &[Name], values: &[Datum]) -> String {
-    let all = names.iter().zip(values).filter(|(_, value)| value.is_on());
-    let on: Vec<String> = all
-        .map(|(name, value)| match value {
-            Datum::Bool(_) => printable(name),
-            number => format!("{}={number}", printable(name)),
-        })
-        .collect();
-    match on.is_empty() {
-        true => "-".to_owned(),
-        false => on.join(" "),
     }
 }
 

@@ -9,7 +9,7 @@ use verification::{Difference, Reason, Timing, Verdict, Verification, What, rung
 
 use crate::colour::Paint;
 use crate::input::numbered;
-use crate::report::printable;
+use crate::report::{on, printable};
 
 /// The whole answer.
 pub fn text(found: &Verification, program: &Program, paint: Paint) -> String {
@@ -146,9 +146,9 @@ fn shown(difference: &Difference, timing: Timing, paint: Paint) -> String {
         rows.push(vec![
             (at + 1).to_string(),
             time(passed).to_string(),
-            on(&step.inputs),
-            on(&step.ladder),
-            on(&step.grafcet),
+            on(pairs(&step.inputs)),
+            on(pairs(&step.ladder)),
+            on(pairs(&step.grafcet)),
             printable(&step.active.join(" ")),
         ]);
     }
@@ -186,19 +186,8 @@ fn table(rows: &[Vec<String>], paint: Paint) -> String {
     out
 }
 
-/// What is on, numbers with their values; `-` if nothing is.
-fn on(values: &[(Name, Datum)]) -> String {
-    let all = values.iter().filter(|(_, value)| value.is_on());
-    let on: Vec<String> = all
-        .map(|(name, value)| match value {
-            Datum::Bool(_) => printable(name),
-            number => format!("{}={number}", printable(name)),
-        })
-        .collect();
-    match on.is_empty() {
-        true => "-".to_owned(),
-        false => on.join(" "),
-    }
+fn pairs(values: &[(Name, Datum)]) -> impl Iterator<Item = (&Name, &Datum)> {
+    values.iter().map(|(name, value)| (name, value))
 }
 
 /// Which rungs write the outputs that differ.
