@@ -19,8 +19,8 @@ pub(crate) struct Bounded<'n> {
     inputs: Vec<Vec<Signal>>,
     /// What the latches hold before the next scan to be unrolled.
     state: Vec<Signal>,
-    /// Whether something is wrong in the last scan unrolled, and not yet asked.
-    pending: Option<Signal>,
+    /// The properties in the last scan unrolled, until it is known to be clean.
+    last: Option<Vec<Signal>>,
     /// No trace of so many scans or fewer violates a property.
     pub clean: usize,
 }
@@ -53,46 +53,43 @@ impl<'n> Bounded<'n> {
             state: initial.clone(),
             initial,
             inputs: Vec::new(),
-            pending: None,
+            last: None,
             clean: 0,
         }
     }
 
     /// Looks at one scan more, for the properties that `is_open` names by
-    /// their place. After an error the same call goes on where it stopped.
+    /// their place. After an error, or when a property that was violated is no
+    /// longer open, the same call goes on where it stopped.
     pub fn advance(
         &mut self,
         is_open: impl Fn(usize) -> bool,
         meter: &mut Meter,
     ) -> Result<Scan, Why> {
-        let wrong = match self.pending {
-            Some(wrong) => wrong,
-            None => self.unroll(is_open, meter)?,
-        };
-        self.pending = Some(wrong);
+        if self.last.is_none() {
+            self.last = Some(self.unroll(meter)?);
+        }
+        let last = self.last.iter().flatten().enumerate();
+        let wrong = last.filter(|(at, _)| is_open(*at)).map(|(_, it)| *it);
+        let wrong: Vec<Signal> = wrong.collect();
+        let wrong = self.graph.any(&wrong);
         if wrong != Signal::FALSE {
             match self.solver.ask(&self.graph, &[wrong], meter)? {
                 Answer::Yes => return Ok(Scan::Violated(self.trace())),
                 Answer::No => self.solver.assert(&self.graph, !wrong, meter)?,
             }
         }
-        // What was asserted already cannot come in the way of itself.
-        self.pending = Some(Signal::FALSE);
         let is_constrained = !self.netlist.constraints.is_empty();
         if is_constrained && self.solver.ask(&self.graph, &[], meter)? == Answer::No {
             return Ok(Scan::Forbidden);
         }
-        self.pending = None;
+        self.last = None;
         self.clean += 1;
         Ok(Scan::Clean)
     }
 
-    /// Unrolls one scan: whether something is wrong in it.
-    fn unroll(
-        &mut self,
-        is_open: impl Fn(usize) -> bool,
-        meter: &mut Meter,
-    ) -> Result<Signal, Why> {
+    /// Unrolls one scan: its properties.
+    fn unroll(&mut self, meter: &mut Meter) -> Result<Vec<Signal>, Why> {
         meter.fits(self.graph.len() + self.netlist.size())?;
         meter.spend(self.netlist.size())?;
         let inputs: Vec<Signal> = (0..self.netlist.inputs.len())
@@ -103,15 +100,12 @@ impl<'n> Bounded<'n> {
             let signal = placed.of(constraint);
             self.solver.assert(&self.graph, signal, meter)?;
         }
-        let properties = self.netlist.properties.iter().enumerate();
-        let wrong: Vec<Signal> = properties
-            .filter(|(at, _)| is_open(*at))
-            .map(|(_, property)| placed.of(property.signal))
-            .collect();
+        let properties = self.netlist.properties.iter();
+        let last = properties.map(|it| placed.of(it.signal)).collect();
         let latches = self.netlist.latches.iter();
         self.state = latches.map(|latch| placed.of(latch.next)).collect();
         self.inputs.push(inputs);
-        Ok(self.graph.any(&wrong))
+        Ok(last)
     }
 
     fn trace(&self) -> Trace {

@@ -43,6 +43,7 @@
 //! * [`Trace`] and [`replay`]: a sequence of inputs and what it does.
 //! * [`check`]: all engines, one [`Report`]. [`Limits`] bound its work and
 //!   memory; there is no clock, so the answer is the same on every machine.
+//! * [`seek`]: a shortest trace for each property by itself.
 //! * [`blif`] and [`aiger`]: the same netlist for tools of others.
 //!
 //! `docs/proof.md` tells how the engines work and where they come from.
@@ -72,7 +73,9 @@ mod random;
 mod reach;
 mod report;
 mod runs;
+mod seek;
 mod signal;
+mod simplify;
 mod solver;
 mod supposed;
 mod trace;
@@ -86,7 +89,9 @@ pub use limits::{Limits, Why};
 pub use netlist::{Initial, Input, Latch, Netlist, Output};
 pub use place::Placed;
 pub use report::{Difference, Proof, Report, Status, Verdict};
+pub use seek::{Search, Sought, seek};
 pub use signal::Signal;
+pub use simplify::simplified;
 pub use supposed::Supposed;
 pub use trace::{Replay, Trace, replay};
 

@@ -4,7 +4,7 @@
 #[path = "../tests/judge/explicit.rs"]
 mod explicit;
 #[path = "../tests/judge/plan.rs"]
-mod plan;
+pub(crate) mod plan;
 
 use explicit::shortest_difference;
 use plan::{Operand, Plan, plans};

@@ -86,6 +86,19 @@ pub fn replay(netlist: &Netlist, trace: &Trace) -> Replay {
     replay
 }
 
+/// Which properties are violated in the last scan of a trace that the
+/// constraints allow; none of one that they forbid.
+pub(crate) fn violated_at_end(netlist: &Netlist, trace: &Trace) -> Vec<bool> {
+    let mut judge = netlist.clone();
+    let properties = std::mem::take(&mut judge.properties);
+    let outputs = judge.outputs.len();
+    judge.outputs.extend(properties);
+    let mut seen = replay(&judge, trace);
+    let end = seen.outputs.pop().filter(|_| seen.forbidden.is_none());
+    let none = vec![false; judge.outputs.len()];
+    end.unwrap_or(none).split_off(outputs)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

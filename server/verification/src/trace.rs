@@ -1,14 +1,10 @@
 //! A sequence of inputs, with what came of it on both sides.
 
 use logic::{Datum, Name};
-use proof::{Netlist, Signal, Trace as Signals, replay};
 use scenario::{Change, Passing, Scenario};
 use source::Span;
 
 use crate::Timing;
-
-/// So many gates are evaluated to make a trace simpler.
-const MOST_WORK: usize = 200_000_000;
 
 /// What was done and what came of it, step by step.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -83,44 +79,4 @@ impl Trace {
             ..Scenario::default()
         }
     }
-}
-
-/// The trace with no change of an input that is not needed: what violates a
-/// property in its last step still does so there, and nothing forbids it.
-///
-/// It costs a replay for each change; of a long trace only as many are tried as
-/// are worth it.
-pub(crate) fn simplified(netlist: &Netlist, trace: &Signals, bad: &[Signal]) -> Signals {
-    let mut judge = netlist.clone();
-    for signal in bad {
-        judge.never("violated", *signal);
-    }
-    let last = trace.scans().saturating_sub(1);
-    let is_good = |tried: &Signals| {
-        let replayed = replay(&judge, tried);
-        let violated = replayed.violation.filter(|(at, _)| *at == last);
-        violated.is_some_and(|(_, names)| names.iter().any(|name| &**name == "violated"))
-    };
-    let mut best = trace.clone();
-    if !is_good(&best) {
-        return best;
-    }
-    let mut left = MOST_WORK / (netlist.size() * trace.scans()).max(1);
-    // Twice: what one change allows may be found only after another.
-    for _ in 0..2 {
-        for scan in 0..best.inputs.len() {
-            for input in 0..best.inputs[scan].len() {
-                let before = scan.checked_sub(1).is_some_and(|at| best.inputs[at][input]);
-                if best.inputs[scan][input] != before && left > 0 {
-                    left -= 1;
-                    let mut tried = best.clone();
-                    tried.inputs[scan][input] = before;
-                    if is_good(&tried) {
-                        best = tried;
-                    }
-                }
-            }
-        }
-    }
-    best
 }

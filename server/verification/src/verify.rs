@@ -4,7 +4,9 @@ use grafcet::Spec;
 use grafcet::evolution::Unstable;
 use ladder::{Class, Program};
 use logic::Name;
-use proof::{Gates, Limits, Netlist, Proof, Signal, Status, Verdict as Found, Why, check};
+use proof::{
+    Gates, Limits, Netlist, Proof, Signal, Status, Verdict as Found, Why, check, simplified,
+};
 
 use crate::chart::{self, Evolved};
 use crate::frame::Frame;
@@ -13,7 +15,7 @@ use crate::program::{self, Bounds, Followed};
 use crate::refusal::Refusal;
 use crate::rules::{Atoms, Steps, names_of};
 use crate::run::{End, Run};
-use crate::trace::{Trace, simplified};
+use crate::trace::Trace;
 use crate::value::Value;
 
 /// When outputs are compared.
@@ -43,6 +45,9 @@ const RESTLESS: &str = "(restless)";
 /// A scan of a grafcet is followed through this many evolutions, a settling of
 /// both sides through this many scans, at most.
 const MOST_ROUNDS: usize = 256;
+
+/// So many gates are evaluated to make a trace simpler.
+const MOST_WORK: usize = 200_000_000;
 
 /// What was found about a ladder and its spec.
 #[derive(Clone, Debug)]
@@ -277,7 +282,7 @@ impl<'v> Verifier<'v> {
             },
             Found::Different(found) => {
                 let is_shortest = found.is_shortest();
-                let simple = simplified(&frame.netlist, &found.trace, &bad);
+                let simple = simplified(&frame.netlist, &found.trace, &bad, MOST_WORK);
                 for signals in [&simple, &found.trace] {
                     let ((trace, end), mut run) = self.replayed(system, signals);
                     let what = match end {
@@ -350,7 +355,7 @@ impl<'v> Verifier<'v> {
             },
             Found::Different(found) => {
                 let is_shortest = found.is_shortest();
-                let simple = simplified(&system.frame.netlist, &found.trace, &[bad]);
+                let simple = simplified(&system.frame.netlist, &found.trace, &[bad], MOST_WORK);
                 for signals in [&simple, &found.trace] {
                     let ((trace, end), mut run) = self.replayed(system, signals);
                     let condition = &self.spec.never[at].condition;
