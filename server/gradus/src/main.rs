@@ -20,6 +20,7 @@ mod program;
 mod progress;
 mod report;
 mod settings;
+mod sights;
 mod status;
 mod subject;
 

@@ -196,6 +196,10 @@ pub(crate) fn why(succession: &Succession, ladder: &Ladder, budget: &Budget) -> 
     let rests = match succession.evidence {
         Evidence::Written => format!("A rung writes {to} after {from}."),
         Evidence::Handover => format!("What ends {from} is what starts {to}."),
+        Evidence::Witnessed => format!("{from} can be seen to end in the scan that starts {to}."),
+        Evidence::Delayed => format!(
+            "{to} can be seen to start after {from} has ended, with no other state on in between."
+        ),
         Evidence::Possible => {
             format!("What ends {from} and what starts {to} share a variable and can hold together.")
         }

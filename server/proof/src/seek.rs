@@ -4,6 +4,8 @@
 //! first trace. Here properties are what somebody would like to see happen: each
 //! is looked for until it is found or shown to be out of reach.
 
+use rustc_hash::FxHashSet;
+
 use crate::bounded::{Bounded, Scan};
 use crate::classes::Classes;
 use crate::components::components;
@@ -65,6 +67,7 @@ pub fn seek(netlist: &Netlist, calm: &[usize], limits: &Limits) -> Search {
     let constraints: Vec<usize> = (0..netlist.constraints.len()).collect();
     let alone = Classes::alone(netlist.size());
     let mut cutter = Cutter::new(netlist, &alone);
+    let calm: FxHashSet<usize> = calm.iter().copied().collect();
     let mut left = limits.steps;
     for (at, part) in parts.iter().enumerate() {
         let share = left / (parts.len() - at) as u64;

@@ -11,7 +11,7 @@ use crate::findings::Findings;
 use crate::groups::{Group, groups};
 use crate::registers::{Register, registers};
 use crate::states::{States, states};
-use crate::successions::{Comparisons, Succession, ranked};
+use crate::successions::{Comparisons, Sights, Succession, ranked, with_sights};
 
 /// All that is recovered from a ladder before anybody decides anything.
 ///
@@ -26,6 +26,8 @@ pub struct Analysis {
     /// Its step registers.
     pub registers: Vec<Register>,
     recovered: OnceLock<Arc<Recovered>>,
+    /// What somebody saw happen, and the suggestions with it.
+    seen: OnceLock<(Sights, Vec<Succession>)>,
     /// What was known before a change.
     earlier: Earlier,
     findings: OnceLock<Arc<Findings>>,
@@ -115,6 +117,7 @@ fn analysed(
         conditions,
         registers,
         recovered: OnceLock::new(),
+        seen: OnceLock::new(),
         findings: OnceLock::new(),
         earlier,
         budget: budget.clone(),
@@ -149,9 +152,33 @@ impl Analysis {
         &self.recovered().states
     }
 
-    /// Which state may follow which, best first.
+    /// Which state may follow which, best first; with what was
+    /// [seen](Self::see), once somebody has told it.
     pub fn successions(&self) -> &[Succession] {
-        &self.recovered().successions
+        match self.seen.get() {
+            Some((_, successions)) => successions,
+            None => &self.recovered().successions,
+        }
+    }
+
+    /// Takes down what a search through the sequences of inputs has seen. The
+    /// first who tells counts.
+    pub fn see(&self, sights: Sights) {
+        self.seen.get_or_init(|| {
+            let recovered = self.recovered();
+            let successions = with_sights(
+                &recovered.successions,
+                &sights,
+                &recovered.states,
+                &self.budget,
+            );
+            (sights, successions)
+        });
+    }
+
+    /// What was seen, if somebody has told.
+    pub fn sights(&self) -> Option<&Sights> {
+        self.seen.get().map(|(sights, _)| sights)
     }
 
     /// The groups of dependent rungs that hold states.

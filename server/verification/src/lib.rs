@@ -39,6 +39,8 @@
 //! * [`verify`] asks whether the two do the same, and gives a [`Verification`].
 //!   What the engines of `proof` find is run by the interpreters before it is
 //!   told, as a [`Trace`]. [`rungs_of`] names the rungs that decide.
+//! * [`witness`] searches for sequences of inputs that show which state follows
+//!   which.
 //! * [`alone`] gives one side as a netlist for other tools.
 //!
 //! What cannot be translated as it is meant is not translated: a [`Refusal`]
@@ -58,6 +60,7 @@ mod rungs;
 mod trace;
 mod value;
 mod verify;
+pub mod witness;
 
 pub use refusal::Refusal;
 pub use rungs::{RungOf, rungs_of};

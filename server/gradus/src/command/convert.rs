@@ -15,6 +15,7 @@ use crate::diff;
 use crate::io::{Io, is_standard_input};
 use crate::program::{self, Ladder};
 use crate::report::{self, Findings, printable};
+use crate::sights;
 use crate::status::Status;
 
 mod accept;
@@ -32,6 +33,10 @@ use conversion::Conversion;
 use outcome::Outcome;
 use spec_file::{SpecFile, State};
 
+/// Millions of small steps that a search is worth whose result nobody looks
+/// through before it is accepted.
+const THOROUGH: u64 = 5_000;
+
 const DETAILS: &str = "\
 The spec holds the decisions: what was accepted, rejected, and where a sequence
 starts. So running the command again goes on where it stopped, and without
@@ -44,7 +49,9 @@ Accepting:
   none       nothing; without any decision every state is a small grafcet of two
              steps, which mostly does what the ladder does; the verdict tells
   handover   every pair of which the end of the one is the start of the other
-  witnessed  not yet: it needs input sequences that this version cannot search for
+  witnessed  every pair that a sequence of inputs shows, in plants that obey the
+             environment rules of the spec and change one input at a time: no
+             person is needed where the ladder says enough; the verdict tells
   all        every suggestion, also those that are merely possible
   LIST       v1->v2,v1->h   these pairs, suggested or not, rejected before or not
              v1->v2&h&m     these states start together
@@ -94,9 +101,15 @@ pub struct Args {
     #[arg(short, long, value_name = "SPEC")]
     output: Option<PathBuf>,
 
-    /// What to accept: none, handover, all, or a list of pairs.
+    /// What to accept: none, handover, witnessed, all, or a list of pairs.
     #[arg(long, value_name = "WHAT", value_parser = accept::parse)]
     accept: Option<Wanted>,
+
+    /// How long to search for sequences of inputs, in millions of small steps: a
+    /// thousand are some ten seconds. Without it 5000 for `--accept witnessed`, 200
+    /// for --interactive.
+    #[arg(long, value_name = "MILLIONS")]
+    effort: Option<u64>,
 
     /// A state in which its sequence starts; may be given several times.
     #[arg(long, value_name = "STATE")]
@@ -150,6 +163,23 @@ pub fn run(args: &Args, io: &mut Io) -> std::io::Result<Status> {
         return Ok(Status::Interrupted);
     };
     let mut conversion = Conversion::begin(&analysis, file, &budget);
+    // Whoever decides by evidence should have all there is.
+    let takes_witnessed = args.accept == Some(Wanted::Witnessed);
+    if args.interactive || takes_witnessed {
+        let environment = conversion.environment();
+        let usual = if takes_witnessed {
+            THOROUGH
+        } else {
+            sights::EFFORT
+        };
+        let effort = args.effort.unwrap_or(usual);
+        if let Some(note) = sights::see(&ladder, &analysis, environment, effort, io) {
+            io.aside(&format!("{}: {note}\n", printable(&ladder.name())))?;
+        }
+        if io.cancel().is_cancelled() {
+            return Ok(Status::Interrupted);
+        }
+    }
     if let Err(reason) = decide(args, &analysis, &mut conversion) {
         io.complain(&reason);
         return Ok(Status::Usage);
@@ -171,12 +201,6 @@ fn misuse(args: &Args, io: &Io) -> Option<&'static str> {
     if args.interactive && !io.can_ask() {
         return Some(
             "--interactive needs a terminal to ask at; --accept takes a list without asking",
-        );
-    }
-    if args.accept == Some(Wanted::Witnessed) {
-        return Some(
-            "`--accept witnessed` needs input sequences that show each pair, and this version \
-             cannot search for them; use handover or a list",
         );
     }
     None

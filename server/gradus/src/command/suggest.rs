@@ -10,6 +10,8 @@ use recovery::successions::{self, Succession};
 
 use crate::io::Io;
 use crate::program;
+use crate::report::printable;
+use crate::sights;
 use crate::status::Status;
 
 mod json;
@@ -20,12 +22,23 @@ What a suggestion rests on, strongest first:
 
   written    an arc of a step register, read off a write; exact
   handover   what ends the one state is what starts the other
+  witnessed  a scan was found that ends the one and starts the other
+  delayed    the other was seen to start some scans after the one had ended, with
+             no state on in between that would explain it
   possible   what ends the one and what starts the other share a variable and can
              hold together
 
-A follower is of kind `and` when it starts together with others, for the same
-cause and without locking them out; of kind `or` when it starts instead of them.
-The condition says when the one ends and the other begins.
+A follower is of kind `and` when it starts together with others, in one scan and
+without locking them out; of kind `or` when it starts instead of them. The
+condition says when the one ends and the other begins.
+
+The line below a suggestion is a witness: the shortest sequence of inputs from the
+first scan in which it happens, as a scenario says it. Sequences are searched in
+which no more than one input changes from scan to scan, then all others: what takes
+several at once is mostly a coincidence; it comes after the rest, and is only named. With a spec beside the ladder,
+or named by --spec, only plants that obey its environment rules are looked at: this
+is what keeps out what no plant does. A handover that was shown never to happen
+there is merely possible. What is not decided with --effort stays as it is.
 
 Methods:
   ranked     states only, best first
@@ -36,12 +49,19 @@ Methods:
 
 JSON:
   {\"states\": [], \"suggestions\": [{\"from\", \"to\", \"evidence\", \"kind\", \"condition\",
-    \"witness\": []}], \"sequence\", \"reason\",
+    \"witness\": [{\"inputs\": {}, \"elapsed\", \"on\": []}], \"ended\", \"calm\"}],
+    \"sequence\", \"reason\", \"rules\", \"searched\",
     \"groups\": [{\"states\": [], \"sequence\", \"reason\", \"modes\": [[]]}]}
   `states` are the coils and register values that took part. `evidence` is
-  written, handover or possible; `kind` is and or or. `condition` is null where
-  it is too long to be read (more than 40 products) and for cubes. `witness` is empty: no input sequences are searched
-  for. A group is a set of rungs that depend on each other; `modes` are sets of
+  written, handover, witnessed, delayed or possible; `kind` is and or or.
+  `condition` is null where it is too long to be read (more than 40 products) and
+  for cubes. `witness` has an entry for each scan, empty if no sequence is known:
+  the inputs that change, the time since the scan before in ms, and the states
+  that are on then. The first state ends in the scan that `ended` counts to, from
+  1; `calm` says that no more than one input changes at a time. `rules` is the
+  number of environment rules, `searched` whether every pair was found or shown
+  never to happen; null without a search.
+  A group is a set of rungs that depend on each other; `modes` are sets of
   states that replace each other in any order, such as opened and closed.
 
 Exit status: 0 also where there is no sequence: that is an answer. 1 if the text
@@ -49,6 +69,7 @@ of the ladder has errors.
 
 Examples:
   gradus suggest line3.L5X
+  gradus suggest tank.ladder --spec plant.grafcet --effort 2000
   gradus suggest --method cubes --json tank.ladder | jq '.suggestions | length'";
 
 /// Suggest which state follows which, best first.
@@ -62,6 +83,16 @@ pub struct Args {
     /// How to look for suggestions.
     #[arg(long, default_value = "ranked")]
     method: Method,
+
+    /// The spec whose environment rules the plant obeys; without it, the one
+    /// beside the ladder, if there is one.
+    #[arg(long, value_name = "SPEC")]
+    spec: Option<PathBuf>,
+
+    /// How long to search for sequences of inputs, in millions of small steps; a
+    /// thousand are some ten seconds, 0 is no search.
+    #[arg(long, value_name = "MILLIONS", default_value_t = sights::EFFORT)]
+    effort: u64,
 
     /// Answer in JSON.
     #[arg(long)]
@@ -90,9 +121,16 @@ pub fn run(args: &Args, io: &mut Io) -> std::io::Result<Status> {
     let Some(ladder) = program::read(&args.file, io)? else {
         return Ok(Status::Usage);
     };
+    let Some(environment) = sights::environment(&args.file, args.spec.as_ref(), io)? else {
+        return Ok(Status::Usage);
+    };
     let budget = program::budget(io);
     let Some(analysis) = program::analyse(&ladder, &budget) else {
         return Ok(Status::Interrupted);
+    };
+    let note = match args.method {
+        Method::Ranked => sights::see(&ladder, &analysis, &environment, args.effort, io),
+        Method::Possible | Method::Cubes => None,
     };
     let paint = io.answer_paint();
     let answer = {
@@ -108,6 +146,10 @@ pub fn run(args: &Args, io: &mut Io) -> std::io::Result<Status> {
         return Ok(Status::Interrupted);
     }
     io.answer().write_all(answer.as_bytes())?;
+    if let Some(note) = note {
+        let name = printable(&ladder.name());
+        io.aside(&format!("{name}: {note}\n"))?;
+    }
     Ok(ladder.status())
 }
 

@@ -21,7 +21,7 @@ pub use json::json;
 pub use printable::printable;
 pub use sarif::sarif;
 pub use text::{text, unreadable};
-pub use values::on;
+pub use values::{on, value};
 
 /// What was found in one file.
 pub struct Findings {

@@ -1,4 +1,5 @@
 use logic::{Datum, Name};
+use serde_json::{Value, json};
 
 use super::printable;
 
@@ -15,5 +16,14 @@ pub fn on<'v>(values: impl Iterator<Item = (&'v Name, &'v Datum)>) -> String {
     match on.is_empty() {
         true => "-".to_owned(),
         false => on.join(" "),
+    }
+}
+
+/// A value in JSON.
+pub fn value(value: Datum) -> Value {
+    match value {
+        Datum::Bool(on) => json!(on),
+        Datum::Integer(number) => json!(number),
+        Datum::Real(number) => json!(number),
     }
 }

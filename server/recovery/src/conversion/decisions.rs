@@ -15,6 +15,9 @@ pub enum Accept {
     None,
     /// What is written or handed over.
     Handovers,
+    /// What was seen to happen in one scan while no more than one input changes
+    /// at a time; see [`crate::successions::Witness`].
+    Witnessed,
     /// Every suggestion.
     All,
     /// These: from, and what follows it.
@@ -45,13 +48,16 @@ pub fn decide(analysis: &Analysis, made: &[Decision], accept: &Accept) -> Vec<De
                 add(from, to.clone());
             }
         }
-        Accept::Handovers | Accept::All => {
-            let wanted = |succession: &&Succession| match succession.evidence {
-                // A register's arcs are read off its writes and need no
-                // decision.
-                Evidence::Written => false,
-                Evidence::Handover => true,
-                Evidence::Possible => *accept == Accept::All,
+        Accept::Handovers | Accept::Witnessed | Accept::All => {
+            // A register's arcs are read off its writes and need no decision.
+            let wanted = |succession: &&Succession| match (accept, succession.evidence) {
+                (_, Evidence::Written) => false,
+                (Accept::Handovers, evidence) => evidence == Evidence::Handover,
+                (Accept::Witnessed, evidence) => {
+                    let witness = succession.witness.as_ref();
+                    evidence <= Evidence::Witnessed && witness.is_some_and(|it| it.is_calm)
+                }
+                (_, _) => true,
             };
             for (from, to) in together(analysis.successions().iter().filter(wanted)) {
                 add(&from, to);

@@ -73,6 +73,7 @@ impl Register {
                 evidence: Evidence::Written,
                 kind: Kind::Or,
                 condition: Some(arc.condition.clone()),
+                witness: None,
             })
             .collect()
     }

@@ -29,6 +29,7 @@ pub fn cubes(conditions: &Conditions, budget: &Budget) -> Vec<Succession> {
                     evidence: Evidence::Possible,
                     kind: Kind::Or,
                     condition: None,
+                    witness: None,
                 });
             }
         }

@@ -3,7 +3,8 @@
 //! For two states P and F the question is whether F follows P: whether what
 //! ends P is what starts F. The answers come in ranks of [`Evidence`]; the
 //! best come first. [`ranked`] looks at states only, `possible` and `cubes`
-//! at every coil, as the paper does.
+//! at every coil, as the paper does. Whether a pair is ever seen to happen takes a
+//! search through the sequences of inputs; who made one tells its [`Sights`].
 
 mod common;
 mod compared;
@@ -13,6 +14,7 @@ mod handover;
 mod kind;
 mod possible;
 mod shared;
+mod witness;
 
 use std::sync::Arc;
 
@@ -24,6 +26,8 @@ pub use cubes::cubes;
 pub(crate) use facets::Facets;
 pub(crate) use handover::{handed_over, started_apart};
 pub use possible::possible;
+pub(crate) use witness::with_sights;
+pub use witness::{Sight, Sights, Witness};
 
 use crate::conditions::{Conditions, Variable};
 use crate::registers::Register;
@@ -36,6 +40,11 @@ pub enum Evidence {
     Written,
     /// What ends the one is what starts the other.
     Handover,
+    /// Some scan that can be reached ends the one and starts the other.
+    Witnessed,
+    /// The one can be seen to start after the other has ended, with no state on
+    /// in between that would explain it.
+    Delayed,
     /// The two conditions share a variable and can hold together.
     Possible,
 }
@@ -46,6 +55,8 @@ impl Evidence {
         match self {
             Self::Written => "written",
             Self::Handover => "handover",
+            Self::Witnessed => "witnessed",
+            Self::Delayed => "delayed",
             Self::Possible => "possible",
         }
     }
@@ -83,6 +94,8 @@ pub struct Succession {
     pub kind: Kind,
     /// When: the condition under which the one ends and the other begins.
     pub condition: Option<Function>,
+    /// A shortest sequence of inputs in which it happens, if one is known.
+    pub witness: Option<Arc<Witness>>,
 }
 
 /// The most pairs that are looked at one by one. A program in which more
@@ -124,6 +137,7 @@ pub fn ranked(
                 evidence,
                 kind,
                 condition,
+                witness: None,
             }),
     );
     (found, compared.finish())

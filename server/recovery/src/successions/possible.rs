@@ -42,6 +42,7 @@ pub fn possible(conditions: &Conditions, budget: &Budget) -> Vec<Succession> {
                     evidence: Evidence::Possible,
                     kind: Kind::Or,
                     condition: Some(both),
+                    witness: None,
                 });
             }
         }

@@ -16,7 +16,7 @@ pub enum Wanted {
     None,
     /// All handovers.
     Handover,
-    /// All that a search for input sequences shows.
+    /// What a search for sequences of inputs shows.
     Witnessed,
     /// Every suggestion.
     All,
@@ -34,7 +34,8 @@ pub fn parse(text: &str) -> Result<Wanted, String> {
         list if list.contains("->") => Wanted::These(pairs(list)?),
         _ => {
             return Err(
-                "expected none, handover, all, or a list such as `v1->v2,v1->h&m`".to_owned(),
+                "expected none, handover, witnessed, all, or a list such as `v1->v2,v1->h&m`"
+                    .to_owned(),
             );
         }
     })
@@ -94,7 +95,8 @@ pub fn apply(
 ) -> Result<Vec<Decision>, String> {
     let by_evidence = |accept| recovery::conversion::decide(analysis, &decisions, &accept);
     match wanted {
-        Wanted::None | Wanted::Witnessed => Ok(decisions),
+        Wanted::None => Ok(decisions),
+        Wanted::Witnessed => Ok(by_evidence(Accept::Witnessed)),
         Wanted::Handover => Ok(by_evidence(Accept::Handovers)),
         Wanted::All => Ok(by_evidence(Accept::All)),
         Wanted::These(pairs) => {

@@ -158,6 +158,12 @@ fn question(succession: &Succession, conversion: &Conversion<'_>) -> String {
     text += match succession.evidence {
         Evidence::Written => "\n  written: a write says so",
         Evidence::Handover => "\n  handover: what ends the one is what starts the other",
+        Evidence::Witnessed => {
+            "\n  witnessed: the one was seen to end in the scan that starts the other"
+        }
+        Evidence::Delayed => {
+            "\n  delayed: the one was seen to start after a wait, once the other had ended"
+        }
         Evidence::Possible => "\n  possible: both conditions can hold together",
     };
     let others = usual_company(succession, conversion);

@@ -78,6 +78,8 @@ fn of_state(out: &mut String, state: &OfState<'_>, paint: Paint) {
     }
     for (word, evidence) in [
         ("open", Evidence::Handover),
+        ("witnessed", Evidence::Witnessed),
+        ("delayed", Evidence::Delayed),
         ("possible", Evidence::Possible),
     ] {
         let open: Vec<&&Succession> = state
@@ -87,7 +89,7 @@ fn of_state(out: &mut String, state: &OfState<'_>, paint: Paint) {
             .collect();
         if !open.is_empty() {
             let names = listed(open.iter().map(|it| &it.to));
-            out.push_str(&format!("  {word:<8}  -> {names}\n"));
+            out.push_str(&format!("  {word:<9} -> {names}\n"));
         }
     }
     if !state.rejected.is_empty() {

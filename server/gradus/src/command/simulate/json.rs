@@ -6,6 +6,8 @@ use recovery::simulation::{Failure, Row, Side, Simulation, Subject, Wanted};
 use scenario::{Scenario, Test};
 use serde_json::{Map, Value, json};
 
+use crate::report::value;
+
 /// The whole answer.
 pub fn json(
     scenario: &Scenario,
@@ -67,14 +69,6 @@ fn object(names: &[Name], values: &[Datum]) -> Value {
 
 fn strings(names: &[Name]) -> Vec<&str> {
     names.iter().map(|name| &**name).collect()
-}
-
-fn value(value: Datum) -> Value {
-    match value {
-        Datum::Bool(on) => json!(on),
-        Datum::Integer(number) => json!(number),
-        Datum::Real(number) => json!(number),
-    }
 }
 
 fn failure(failure: &Failure) -> Value {

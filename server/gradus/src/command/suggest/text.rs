@@ -4,7 +4,7 @@ use std::collections::{HashMap, HashSet};
 
 use logic::{Budget, Name};
 use recovery::groups::{self, Group};
-use recovery::successions::{Evidence, Kind, Succession};
+use recovery::successions::{Evidence, Kind, Succession, Witness};
 
 use super::Found;
 use crate::colour::Paint;
@@ -141,12 +141,14 @@ fn state(out: &mut String, name: &Name, by_state: &ByState<'_>, paint: Paint) {
     if followers.is_empty() {
         out.push_str("  nothing is known to follow\n");
     }
-    let width = followers.iter().map(|it| it.to.chars().count());
+    let (coincidences, others): (Vec<&Succession>, Vec<&Succession>) =
+        followers.iter().partition(|it| is_coincidence(it));
+    let width = others.iter().map(|it| it.to.chars().count());
     let width = width.max().unwrap_or(0);
-    for follower in followers {
+    for follower in others {
         let to = printable(&follower.to);
         let why = why(follower);
-        let line = format!("  -> {to:width$}  {why:<13}  ");
+        let line = format!("  -> {to:width$}  {why:<14}  ");
         let when = match &follower.condition {
             None => String::new(),
             Some(condition) => match legible(
@@ -160,15 +162,63 @@ fn state(out: &mut String, name: &Name, by_state: &ByState<'_>, paint: Paint) {
         };
         out.push_str(format!("{line}{when}").trim_end());
         out.push('\n');
+        if let Some(witness) = &follower.witness {
+            out.push_str(&seen(witness, width + 7));
+        }
+    }
+    if !coincidences.is_empty() {
+        let names: Vec<Name> = coincidences.iter().map(|it| it.to.clone()).collect();
+        let names = listed(&names);
+        out.push_str(&format!(
+            "  -> {names}  seen only where several inputs change at once\n"
+        ));
     }
     out.push('\n');
+}
+
+/// Whether nothing but a coincidence speaks for it.
+fn is_coincidence(succession: &Succession) -> bool {
+    let is_seen = matches!(succession.evidence, Evidence::Witnessed | Evidence::Delayed);
+    is_seen && succession.witness.as_ref().is_some_and(|it| !it.is_calm)
+}
+
+/// The shortest sequence of inputs in which it happens.
+fn seen(witness: &Witness, indent: usize) -> String {
+    let scans = numbered(witness.scans(), "scan");
+    let manner = match witness.is_calm {
+        true => "in",
+        false => "several at once, in",
+    };
+    let words = printable(&witness.in_words());
+    let line = format!("{:indent$}{manner} {scans}: {words}", "");
+    wrapped(&line, indent + 2)
+}
+
+/// Where lines are broken, counted in characters.
+const WIDTH: usize = 100;
+
+/// `line` in several where it is long, broken behind semicolons.
+fn wrapped(line: &str, indent: usize) -> String {
+    let mut out = String::new();
+    let mut column = 0;
+    for part in line.split_inclusive("; ") {
+        let length = part.trim_end().chars().count();
+        if column > 0 && column + length > WIDTH {
+            out.truncate(out.trim_end().len());
+            out += &format!("\n{:indent$}", "");
+            column = indent;
+        }
+        out += part;
+        column += part.chars().count();
+    }
+    out + "\n"
 }
 
 /// `handover, and`.
 fn why(succession: &Succession) -> String {
     let evidence = succession.evidence.word();
     match (succession.evidence, succession.kind) {
-        (Evidence::Handover, Kind::And) => format!("{evidence}, and"),
+        (Evidence::Handover | Evidence::Witnessed, Kind::And) => format!("{evidence}, and"),
         _ => evidence.to_owned(),
     }
 }

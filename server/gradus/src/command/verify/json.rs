@@ -8,6 +8,7 @@ use serde_json::{Map, Value, json};
 use verification::{Reason, Trace, Verdict, Verification, What, rungs_of};
 
 use super::text::left_free;
+use crate::report::value;
 
 /// The whole answer.
 pub fn json(found: &Verification, program: &Program) -> Value {
@@ -113,16 +114,8 @@ fn trace(trace: &Trace) -> Value {
 fn object(values: &[(Name, Datum)]) -> Value {
     let members = values
         .iter()
-        .map(|(name, value)| (name.to_string(), datum(*value)));
+        .map(|(name, datum)| (name.to_string(), value(*datum)));
     Value::Object(members.collect())
-}
-
-fn datum(value: Datum) -> Value {
-    match value {
-        Datum::Bool(on) => json!(on),
-        Datum::Integer(number) => json!(number),
-        Datum::Real(number) => json!(number),
-    }
 }
 
 fn strings(names: &[Name]) -> Vec<&str> {
