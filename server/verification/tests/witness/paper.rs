@@ -48,7 +48,7 @@ fn occurring(analysis: &Analysis) -> BTreeSet<(Name, Name)> {
         let latest = begun
             .iter()
             .rev()
-            .find(|group| group.iter().any(|it| is_still_on(it)));
+            .find(|group| group.iter().any(&is_still_on));
         let follows: Vec<&Name> = match (ends.is_empty(), on.is_empty()) {
             (false, _) => ends.clone(),
             (true, true) => ended.clone(),
