@@ -67,6 +67,9 @@ function M.config()
       ['gradus.simulate'] = function(command)
         require('gradus.command').simulate(command.arguments[1].uri)
       end,
+      ['gradus.verify'] = function(command)
+        require('gradus.command').verify(command.arguments[1].uri)
+      end,
       ['gradus.explain'] = function(command)
         require('gradus.command').run({ 'explain', command.arguments[1] })
       end,
