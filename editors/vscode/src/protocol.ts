@@ -22,20 +22,12 @@ export interface Status {
   readonly verdict: Verdict;
   readonly message: string;
   /** Whether the spec does what the ladder does, if there is a spec. */
-  readonly proof: Proof | null;
+  readonly proof?: Proof;
 }
 
 /** How far it is known whether a spec does what its ladder does. */
 export interface Proof {
-  readonly verdict:
-    | "equivalent"
-    | "different"
-    | "unknown"
-    | "refused"
-    | "proving"
-    | "stopped"
-    | "mistaken"
-    | "unasked";
+  readonly verdict: "equivalent" | "different" | "unknown" | "refused" | "proving" | "stopped" | "mistaken" | "unasked";
   readonly message: string;
 }
 

@@ -59,6 +59,9 @@ function M.config()
       ['gradus/status'] = function(_, status)
         require('gradus.status').take(status)
       end,
+      ['workspace/diagnostic/refresh'] = function(...)
+        return require('gradus.findings').refresh(...)
+      end,
       ['window/showDocument'] = function(_, params, context)
         return require('gradus.beside').show_document(params, context)
       end,

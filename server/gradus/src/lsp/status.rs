@@ -40,7 +40,8 @@ pub struct Status {
     verdict: Verdict,
     /// The same in a line for people.
     message: String,
-    /// Whether the spec does what the ladder does; nothing where there is no spec.
+    /// Whether the spec does what the ladder does; left out where there is no spec.
+    #[serde(skip_serializing_if = "Option::is_none")]
     proof: Option<Proof>,
 }
 

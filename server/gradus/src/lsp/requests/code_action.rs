@@ -46,9 +46,10 @@ enum Work {
         /// Whether rules that depart from the ladder are renewed.
         renew: bool,
     },
-    /// Makes a scenario of the sequence that shows a difference, or that this
-    /// property is violated.
-    Trace { property: Option<String> },
+    /// Makes a scenario of the sequence that shows a difference.
+    TraceOfOutputs,
+    /// Makes one of the sequence that shows that a property is violated.
+    TraceOfProperty(String),
 }
 
 /// The kinds of actions that are offered.
@@ -199,11 +200,11 @@ fn in_protocol(
             answered.edit = Some(spec_edit(query, pair, &action.title, &changes, departing)?);
         }
         Effect::Scenario(about) if query.world.abilities.resolves_edits => {
-            let property = match about {
-                About::Outputs => None,
-                About::Property(label) => Some(label.to_string()),
+            let work = match about {
+                About::Outputs => Work::TraceOfOutputs,
+                About::Property(label) => Work::TraceOfProperty(label.to_string()),
             };
-            answered.data = pending(query, Work::Trace { property });
+            answered.data = pending(query, work);
         }
         Effect::Scenario(about) => {
             answered.edit = Some(trace_edit(query, pair, &action.title, &about)?);
@@ -282,12 +283,10 @@ pub fn resolve(query: &Query, pending: &Pending, mut action: CodeAction) -> Opti
             };
             spec_edit(query, &pair, &action.title, &changes?, departing)
         }
-        Work::Trace { property } => {
-            let about = match property {
-                Some(label) => About::Property(label.as_str().into()),
-                None => About::Outputs,
-            };
-            // The ladder may have changed since, and its difference with it.
+        // The ladder may have changed since, and its difference with it.
+        Work::TraceOfOutputs => Some(trace_edit(query, &pair, &action.title, &About::Outputs)?),
+        Work::TraceOfProperty(label) => {
+            let about = About::Property(label.as_str().into());
             Some(trace_edit(query, &pair, &action.title, &about)?)
         }
     };
