@@ -28,6 +28,7 @@ mod settings;
 mod signature_help;
 mod symbols;
 mod tokens;
+mod verdicts;
 mod workspace_diagnostic;
 
 use end_to_end::lsp::{Client, Profile};

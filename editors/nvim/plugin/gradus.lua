@@ -21,6 +21,7 @@ for name, call in pairs({
   spec = 'spec',
   ladder = 'ladder',
   conditions = 'conditions',
+  verify = 'verify',
   simulate = 'simulate',
   scan = 'scan',
   ['scan-off'] = 'scan off',

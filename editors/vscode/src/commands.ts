@@ -44,6 +44,7 @@ export function registerCommands(
     "gradus.file.openSpec": onLadder(openSpec),
     "gradus.file.ladderText": onLadder((_, ladder) => showBeside(rungsOf(ladder), true)),
     "gradus.file.conditions": onLadder((_, ladder) => showBeside(conditionsOf(ladder), true)),
+    "gradus.file.verify": onLadder(verify),
     "gradus.file.simulate": () => onScenario(server, "gradus.simulate"),
     "gradus.file.showScan": () => onScenario(server, "gradus.showScan"),
     "gradus.file.hideScan": () => commands.executeCommand("gradus.hideScan", {}),
@@ -72,6 +73,11 @@ async function convert(client: LanguageClient, command: string, ladder: Uri): Pr
   const answer = await execute<Conversion>(client, command, { uri: client.code2ProtocolConverter.asUri(ladder) });
   await showBeside(client.protocol2CodeConverter.asUri(answer.uri), false);
   window.setStatusBarMessage(`Gradus: ${answer.changed ? "" : "nothing to change: "}${answer.summary}`, 10_000);
+}
+
+/** Through the editor's own command, so that what it answers is shown where all answers are. */
+async function verify(client: LanguageClient, ladder: Uri): Promise<void> {
+  await commands.executeCommand("gradus.verify", { uri: client.code2ProtocolConverter.asUri(ladder) });
 }
 
 async function openSpec(client: LanguageClient, ladder: Uri): Promise<void> {

@@ -21,6 +21,14 @@ export interface Status {
   readonly stale: number;
   readonly verdict: Verdict;
   readonly message: string;
+  /** Whether the spec does what the ladder does, if there is a spec. */
+  readonly proof?: Proof;
+}
+
+/** How far it is known whether a spec does what its ladder does. */
+export interface Proof {
+  readonly verdict: "equivalent" | "different" | "unknown" | "refused" | "proving" | "stopped" | "mistaken" | "unasked";
+  readonly message: string;
 }
 
 export const statusNotification = new NotificationType<Status>("gradus/status");
@@ -44,6 +52,13 @@ export interface Simulated extends Text {
   readonly uri: string;
   readonly summary: string;
   readonly passed: boolean;
+}
+
+/** What `gradus.verify` answers. */
+export interface Verified extends Text {
+  /** Where the server shows it, kept up to date. */
+  readonly uri: string;
+  readonly summary: string;
 }
 
 /** What `gradus.showScan` answers: the scan that is shown, and what was done before it. */

@@ -30,7 +30,7 @@ import {
 } from "vscode-languageclient/node";
 import { findExecutable } from "./executable";
 import { ownLanguages, schemes, xmlLanguages } from "./ladder-file";
-import { furtherCapabilities, type Scan, type Simulated } from "./protocol";
+import { furtherCapabilities, type Scan, type Simulated, type Verified } from "./protocol";
 import { pageOf, scansOf, withPages } from "./virtual-documents";
 
 /** How often a server that has died is started anew within so many milliseconds. */
@@ -223,12 +223,16 @@ export class Server {
   }
 }
 
-/** Shows what came of a command about a scenario, whether a lens, an action or the palette had it run. */
+/** Shows what came of a command about a scenario or a spec, whether a lens, an action or the palette had it run. */
 async function showRun(command: string, argument: unknown, answer: unknown): Promise<void> {
   if (command === "gradus.simulate" && answer) {
     const { uri } = argument as { readonly uri: string };
     await showBeside(scansOf(Uri.parse(uri, true)), false);
     window.setStatusBarMessage(`Gradus: ${(answer as Simulated).summary}`, 10_000);
+  } else if (command === "gradus.verify" && answer) {
+    const { uri, summary } = answer as Verified;
+    await showBeside(Uri.parse(uri, true), false);
+    window.setStatusBarMessage(`Gradus: ${summary}`, 10_000);
   } else if (command === "gradus.showScan" && answer) {
     const { scan, done } = answer as Scan;
     await commands.executeCommand("setContext", "gradus.showsScan", true);
@@ -275,7 +279,7 @@ export async function showPage(uri: Uri): Promise<void> {
 function settingsForServer(): unknown {
   const settings = workspace.getConfiguration("gradus");
   return Object.fromEntries(
-    ["codeLens", "inlayHints", "suggestions", "diagnostics", "maxFileSize"].map((section) => [
+    ["codeLens", "inlayHints", "suggestions", "diagnostics", "verify", "maxFileSize"].map((section) => [
       section,
       settings.get(section),
     ]),

@@ -5,13 +5,24 @@
 import { MarkdownString, StatusBarAlignment, type TextDocument, Uri, window, workspace } from "vscode";
 import { State } from "vscode-languageclient/node";
 import { concernsGradus, holdsLadder, scenarioLanguage, specLanguage } from "./ladder-file";
-import type { Status, Verdict } from "./protocol";
+import type { Proof, Status, Verdict } from "./protocol";
 
 const faces: Record<Verdict, { readonly icon: string; readonly words: string }> = {
   "no-sequence": { icon: "$(dash)", words: "no sequence" },
   "no-spec": { icon: "$(circle-large-outline)", words: "no spec" },
   "in-step": { icon: "$(check)", words: "in step" },
   behind: { icon: "$(history)", words: "behind" },
+};
+
+const proofs: Record<Proof["verdict"], { readonly icon: string; readonly words: string } | undefined> = {
+  equivalent: { icon: "$(verified)", words: "equivalent" },
+  different: { icon: "$(warning)", words: "different" },
+  unknown: { icon: "$(question)", words: "not known" },
+  refused: { icon: "$(question)", words: "not known" },
+  proving: { icon: "$(loading~spin)", words: "proving" },
+  stopped: undefined,
+  mistaken: undefined,
+  unasked: undefined,
 };
 
 export class Verdicts {
@@ -101,7 +112,9 @@ export class Verdicts {
   #showStatus(status: Status): void {
     const face = faces[status.verdict];
     const open = status.open > 0 ? `, ${status.open} open` : "";
-    this.#item.text = `${face.icon} ${face.words}${open}`;
+    const proof = status.proof && proofs[status.proof.verdict];
+    const proved = proof ? ` ${proof.icon} ${proof.words}` : "";
+    this.#item.text = `${face.icon} ${face.words}${open}${proved}`;
     this.#item.tooltip = tooltip(status);
     this.#item.command = status.verdict === "no-spec" ? "gradus.file.convert" : "gradus.file.openSpec";
   }
@@ -115,11 +128,16 @@ function tooltip(status: Status): MarkdownString {
   ];
   const text = new MarkdownString("**Gradus**\n\n");
   text.appendText(status.message);
+  if (status.proof) {
+    text.appendMarkdown("\n\n");
+    text.appendText(status.proof.message);
+  }
   text.appendMarkdown(`\n\n${counts.map((count) => `- ${count}`).join("\n")}\n\n`);
   text.appendMarkdown(
     "[Open the spec](command:gradus.file.openSpec) · [Bring it up to date](command:gradus.file.convert)",
   );
-  text.isTrusted = { enabledCommands: ["gradus.file.openSpec", "gradus.file.convert"] };
+  if (status.proof) text.appendMarkdown(" · [Verify it](command:gradus.file.verify)");
+  text.isTrusted = { enabledCommands: ["gradus.file.openSpec", "gradus.file.convert", "gradus.file.verify"] };
   return text;
 }
 

@@ -1,6 +1,6 @@
 /**
  * Documents that the server makes from a file: its rungs as text, the conditions of its
- * coils, the scans of a scenario, the page of a finding's code or of a word. Their address names the file they are made from,
+ * coils, the scans of a scenario, the verdict about a spec, the page of a finding's code or of a word. Their address names the file they are made from,
  * so they can be asked for again at any time, and are, after each analysis of it.
  */
 import {
@@ -15,7 +15,8 @@ import {
 import type { Server } from "./server";
 
 const ofScans = "gradus-simulation";
-const schemes = ["gradus-ladder", "gradus-conditions", ofScans, "gradus-explain"] as const;
+const ofVerdict = "gradus-verdict";
+const schemes = ["gradus-ladder", "gradus-conditions", ofScans, ofVerdict, "gradus-explain"] as const;
 
 /** The rungs of a ladder in the project's notation. */
 export function rungsOf(ladder: Uri): Uri {
@@ -76,10 +77,10 @@ export class VirtualDocuments implements TextDocumentContentProvider {
     return answer?.text;
   }
 
-  /** Asks again for what is open and made from that ladder, and for all scans, which may be its own. */
+  /** Asks again for what is open and made from that ladder, and for all scans and verdicts, which may be its own. */
   ladderChanged(ladder: string): void {
     const own = Uri.parse(ladder).toString();
-    this.#again((uri) => uri.scheme === ofScans || Uri.parse(uri.query).toString() === own);
+    this.#again((uri) => [ofScans, ofVerdict].includes(uri.scheme) || Uri.parse(uri.query).toString() === own);
   }
 
   /** Asks again for the scans of a scenario. */

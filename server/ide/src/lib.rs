@@ -21,7 +21,10 @@
 //! * [`hierarchy`]: which step follows which;
 //! * [`tokens`]: what each name is, for colouring;
 //! * [`Scenario`] and [`Run`]: a scenario, and what comes of it on a ladder and a
-//!   spec, said as findings, lenses, hints and hovers.
+//!   spec, said as findings, lenses, hints and hovers;
+//! * [`Judged`]: a ladder and its spec with what a proof found, said as a line and
+//!   as findings, as [a scenario](trace_scenario), and as [rules](exclusions)
+//!   under which a difference cannot happen.
 
 mod actions;
 mod change;
@@ -56,9 +59,11 @@ mod statement;
 pub mod symbols;
 mod term;
 pub mod tokens;
+mod verdict;
 
 pub use actions::{
     Action, ActionKind, Asked, Effect, actions_in_ladder, actions_in_scenario, actions_in_spec,
+    actions_on_verdict,
 };
 pub use change::{Change, Departing, changed_spec};
 pub use changed::{changed, edited};
@@ -94,3 +99,7 @@ pub use selection::{selections_in_ladder, selections_in_scenario, selections_in_
 pub use signature::{Signature, signature};
 pub use spec::Spec;
 pub use term::Term;
+pub use verdict::{
+    About, Exclusion, Judged, Observed, Question, Verdict, VerdictFinding, exclusions, trace_name,
+    trace_scenario, verdict_findings, verdict_line, verdict_word,
+};

@@ -129,6 +129,10 @@ pub mod codes {
         STATE_GONE = 3102, Warning, "state is no longer in the ladder";
         DECISION_UNKNOWN = 3103, Warning, "decision about an unknown state";
         DECISION_SYNTAX = 3104, Warning, "decision not understood";
+        SPEC_DIFFERS = 3201, Warning, "spec does not do what the ladder does";
+        PROPERTY_VIOLATED = 3202, Warning, "property does not hold";
+        VERDICT_UNKNOWN = 3203, Information, "not known whether ladder and spec do the same";
+        NOT_VERIFIED = 3204, Information, "ladder and spec cannot be compared";
         FILE_UNREADABLE = 4001, Error, "file cannot be read";
         SETTINGS_SYNTAX = 4101, Error, "settings file not understood";
         SETTING_UNKNOWN = 4102, Warning, "setting not known";

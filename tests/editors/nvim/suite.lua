@@ -19,6 +19,7 @@ require('without_server')
 require('decisions')
 require('commands')
 require('scenarios')
+require('verdicts')
 
 io.stdout:write(('Neovim %s\n'):format(tostring(vim.version())))
 local failed = harness.run_all()

@@ -9,6 +9,7 @@ import { hovers } from "./hovers.mjs";
 import { life } from "./life.mjs";
 import { scenarios } from "./scenarios.mjs";
 import { start } from "./start.mjs";
+import { verdicts } from "./verdicts.mjs";
 import { virtual } from "./virtual.mjs";
 import { startWorkbench } from "./workbench.mjs";
 
@@ -34,6 +35,7 @@ describe("VS Code", { timeout: 600_000 }, () => {
   describe("commands", () => commands(at));
   describe("folders", () => folders(at));
   describe("scenarios", () => scenarios(at));
+  describe("verdicts", () => verdicts(at));
   describe("start of the server", () => start(at, vsix));
   describe("virtual workspaces", () => virtual(vsix));
   describe("life of the server", () => life(at));

@@ -59,6 +59,9 @@ function M.config()
       ['gradus/status'] = function(_, status)
         require('gradus.status').take(status)
       end,
+      ['workspace/diagnostic/refresh'] = function(...)
+        return require('gradus.findings').refresh(...)
+      end,
       ['window/showDocument'] = function(_, params, context)
         return require('gradus.beside').show_document(params, context)
       end,
@@ -66,6 +69,9 @@ function M.config()
     commands = {
       ['gradus.simulate'] = function(command)
         require('gradus.command').simulate(command.arguments[1].uri)
+      end,
+      ['gradus.verify'] = function(command)
+        require('gradus.command').verify(command.arguments[1].uri)
       end,
       ['gradus.explain'] = function(command)
         require('gradus.command').run({ 'explain', command.arguments[1] })

@@ -73,7 +73,7 @@ local function ask_of_scenario(command, on_answer, scan)
   ask(command, { uri = vim.uri_from_bufnr(0), line = line, scan = scan }, on_answer)
 end
 
---- Shows the table of a scenario's scans.
+--- Shows a table of scans, and says how it went.
 ---@param answer { title: string, language: string, text: string, summary: string }
 local function show_scans(answer)
   beside.show_text(answer)
@@ -123,6 +123,12 @@ local subcommands = {
     does = 'show the conditions of all coils',
     run = function()
       ask('gradus.conditions', { uri = ladder() }, beside.show_text)
+    end,
+  },
+  verify = {
+    does = 'find out whether the spec does what the ladder does',
+    run = function()
+      ask('gradus.verify', { uri = ladder() }, show_scans)
     end,
   },
   simulate = {
@@ -201,6 +207,12 @@ end
 ---@param uri string
 function M.simulate(uri)
   ask('gradus.simulate', { uri = uri }, show_scans)
+end
+
+--- Verifies the spec that a lens stands above.
+---@param uri string
+function M.verify(uri)
+  ask('gradus.verify', { uri = uri }, show_scans)
 end
 
 ---@param words string[]

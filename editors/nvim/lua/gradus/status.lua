@@ -11,12 +11,22 @@ local M = {}
 ---@field stale integer rules that the ladder no longer supports
 ---@field verdict 'no-sequence'|'no-spec'|'in-step'|'behind'
 ---@field message string
+---@field proof? { verdict: string, message: string } whether the spec does what the ladder does
 
 local words = {
   ['no-sequence'] = 'no sequence',
   ['no-spec'] = 'no spec',
   ['in-step'] = 'in step',
   behind = 'behind',
+}
+
+--- What is worth a word of what is known of the proof.
+local proofs = {
+  equivalent = 'equivalent',
+  different = 'different',
+  unknown = 'not known',
+  refused = 'not known',
+  proving = 'proving',
 }
 
 --- A ladder and the spec beside it share their path but for the ending.
@@ -48,7 +58,8 @@ function M.line(buffer)
     return ''
   end
   local open = status.open > 0 and (', %d open'):format(status.open) or ''
-  return (words[status.verdict] or status.verdict) .. open
+  local proof = status.proof and proofs[status.proof.verdict]
+  return (words[status.verdict] or status.verdict) .. open .. (proof and ', ' .. proof or '')
 end
 
 return M

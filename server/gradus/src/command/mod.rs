@@ -15,7 +15,7 @@ mod lsp;
 mod manual;
 pub mod simulate;
 mod suggest;
-mod verify;
+pub mod verify;
 
 use crate::io::Io;
 use crate::status::Status;

@@ -19,7 +19,7 @@ use crate::status::Status;
 use ide::language;
 
 mod json;
-mod text;
+pub mod text;
 
 const DETAILS: &str = "\
 Ladder and spec run side by side on the same inputs, and their outputs must be

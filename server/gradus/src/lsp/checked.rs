@@ -23,6 +23,7 @@ use super::files::{self, Obeyed, Seen};
 use super::key::FileKey;
 use super::plant::Plant;
 use super::publish;
+use super::verdicts::UnderWay;
 use super::world::World;
 use crate::settings::Config;
 
@@ -46,6 +47,8 @@ struct Group {
     elsewhere: Vec<FileKey>,
     /// What was set for them.
     config: Config,
+    /// How far it was known whether specs among them do what their ladders do.
+    judged: Vec<Option<(u64, UnderWay)>>,
     /// What was found then.
     known: Vec<Known>,
 }
@@ -145,6 +148,9 @@ impl Checked {
             Some((key.clone(), seen))
         };
         let mut seen: Vec<(FileKey, Seen)> = keys.iter().filter_map(see).collect();
+        let judged = keys.iter();
+        let judged = judged.map(|key| world.verdicts.state(&key.without_ending()));
+        let judged: Vec<_> = judged.collect();
         if let Some(group) = self.lock().get(stem)
             && let further = group.elsewhere.iter().filter_map(see)
             && seen
@@ -153,6 +159,7 @@ impl Checked {
                 .chain(further)
                 .eq(group.seen.iter().cloned())
             && group.config == config
+            && group.judged == judged
             && let Some(reports) = group.as_told(told)
         {
             return Some(reports);
@@ -226,6 +233,7 @@ impl Checked {
                 seen,
                 elsewhere,
                 config,
+                judged,
                 known,
             };
             self.lock().insert(stem.clone(), group);

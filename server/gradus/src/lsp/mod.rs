@@ -35,6 +35,7 @@ mod parent;
 mod plant;
 mod position;
 mod progress;
+mod proving;
 mod publish;
 mod query;
 mod requests;
@@ -47,6 +48,7 @@ mod status;
 mod teller;
 mod telling;
 mod transport;
+mod verdicts;
 mod virtual_document;
 mod world;
 

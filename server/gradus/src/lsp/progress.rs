@@ -37,6 +37,9 @@ pub enum Work {
     /// The files in the client's folders are checked. The flag is raised by who
     /// does not want that.
     Check(Cancel),
+    /// A spec of that name is verified. The flag is raised by who does not want
+    /// to wait for it.
+    Proof(String, Cancel),
 }
 
 impl Work {
@@ -45,6 +48,7 @@ impl Work {
             Self::Analysis(document) => format!("Analysing {}", document.name()),
             Self::Search(_) => "Reading the names in all files".to_owned(),
             Self::Check(_) => "Checking all files".to_owned(),
+            Self::Proof(spec, _) => format!("Verifying {spec}"),
         }
     }
 }

@@ -12,6 +12,8 @@ use tower_lsp::ls_types::{
 use super::document::Document;
 use super::fault;
 use super::plant::Plant;
+use super::query::Pair;
+use super::verdicts::verdict;
 use super::virtual_document::{self, Page};
 use super::world::World;
 
@@ -45,11 +47,54 @@ fn findings(
         Some(plant) => in_scenario(world, document, &plant),
         None => {
             let found = document.findings(world, budget).into_iter();
-            found.map(|finding| (finding, Vec::new())).collect()
+            let own = found.map(|finding| (finding, Vec::new()));
+            let mut all: Vec<_> = own.chain(of_verdict(world, document)).collect();
+            all.sort_by_key(|(finding, _)| (finding.span, finding.code));
+            all
         }
     };
     found.retain(|(finding, _)| !ignored.contains(&finding.code));
     found
+}
+
+/// What there is to say about a spec since it is known whether it does what its
+/// ladder does.
+fn of_verdict(
+    world: &World,
+    document: &Arc<Document>,
+) -> Vec<(source::Diagnostic, Vec<DiagnosticRelatedInformation>)> {
+    if document.spec().is_none() {
+        return Vec::new();
+    }
+    let pair = Pair::of(world, document);
+    let Some(verdict) = verdict(world, &pair) else {
+        return Vec::new();
+    };
+    let Some(judged) = pair.judged(&verdict) else {
+        return Vec::new();
+    };
+    let found = ide::verdict_findings(judged).into_iter();
+    found
+        .map(|it| it.finding)
+        .map(|it| in_protocol(world, &pair, it))
+        .collect()
+}
+
+/// A finding, its places in other documents as the protocol has them.
+fn in_protocol(
+    world: &World,
+    pair: &Pair,
+    finding: ide::Finding,
+) -> (source::Diagnostic, Vec<DiagnosticRelatedInformation>) {
+    let elsewhere = |(target, message): (ide::navigate::Target, String)| {
+        let other = pair.document(target.side)?;
+        Some(DiagnosticRelatedInformation {
+            location: other.location(target.name, world.encoding()),
+            message,
+        })
+    };
+    let related = finding.related.into_iter().filter_map(elsewhere);
+    (finding.diagnostic, related.collect())
 }
 
 /// What there is to say about a scenario.
@@ -63,20 +108,10 @@ fn in_scenario(
     };
     let run = world.runs.run(document, scenario, plant);
     let found = run.findings(scenario, plant.run_on()).into_iter();
-    let elsewhere = |(target, message): (ide::navigate::Target, String)| {
-        let other = plant.pair.document(target.side)?;
-        Some(DiagnosticRelatedInformation {
-            location: other.location(target.name, world.encoding()),
-            message,
-        })
-    };
     let trouble = plant.trouble.iter().cloned();
     let trouble = trouble.map(|finding| (finding, Vec::new()));
     trouble
-        .chain(found.map(|it| {
-            let elsewhere = it.related.into_iter().filter_map(elsewhere);
-            (it.diagnostic, elsewhere.collect())
-        }))
+        .chain(found.map(|it| in_protocol(world, &plant.pair, it)))
         .collect()
 }
 

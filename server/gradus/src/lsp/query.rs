@@ -15,7 +15,7 @@ use super::position::Encoding;
 use super::world::World;
 use crate::settings::Config;
 use ide::navigate::{self, Side};
-use ide::{Ladder, Run, Scenario, Spec};
+use ide::{Judged, Ladder, Run, Scenario, Spec, Verdict};
 use recovery::successions::Evidence;
 use source::Span;
 
@@ -173,6 +173,15 @@ impl Pair {
             Side::Ladder => self.ladder.as_ref(),
             Side::Spec => self.spec.as_ref(),
         }
+    }
+
+    /// The two with what was found about them.
+    pub fn judged<'p>(&'p self, verdict: &'p Verdict) -> Option<Judged<'p>> {
+        Some(Judged {
+            ladder: self.ladder()?,
+            spec: self.spec()?,
+            verdict,
+        })
     }
 
     /// The two as they are looked at.

@@ -20,6 +20,7 @@ use super::in_force::{Cause, InForce};
 use super::key::FileKey;
 use super::log::Log;
 use super::progress::{self, Shown, Work};
+use super::proving::{self, Turns};
 use super::query::{self, Query, about};
 use super::requests::command::Command;
 use super::shown::Changes;
@@ -69,6 +70,8 @@ pub struct Shared {
     pub checked: Checked,
     /// Changes of what lenses and hints of other documents depend on.
     pub changes: Changes,
+    /// Whose turn it is to prove something.
+    pub proofs: Turns,
 }
 
 impl Server {
@@ -85,6 +88,7 @@ impl Server {
                 in_force: InForce::default(),
                 checked: Checked::default(),
                 changes: Changes::default(),
+                proofs: Turns::default(),
             }),
             end,
         })
@@ -106,7 +110,7 @@ impl Server {
                 });
                 self.shared.tellers.stop(&key);
             }
-            Some(Work::Search(stopped)) => stopped.cancel(),
+            Some(Work::Search(stopped) | Work::Proof(_, stopped)) => stopped.cancel(),
             Some(Work::Check(stopped)) => {
                 self.shared.checked.give_up();
                 stopped.cancel();
@@ -183,6 +187,7 @@ impl LanguageServer for Server {
         self.shared.state.change(|world| {
             world.is_ending = true;
             world.open.values().for_each(|it| it.outdate());
+            world.verdicts.stop();
         });
         Ok(())
     }
@@ -371,6 +376,12 @@ impl LanguageServer for Server {
             Command::HideScan => {
                 telling::choose(&self.shared, None);
                 Ok(None)
+            }
+            Command::Verify(uri) => {
+                let what = format!("{} belongs to no ladder with a spec", uri.as_str());
+                let found = proving::asked(&self.shared, uri).await?;
+                let (pair, known) = found.ok_or_else(|| Error::invalid_params(what))?;
+                query::elsewhere(move |_| requests::verify::answer(&pair, &known)).await
             }
             Command::Ladder(uri, command) => {
                 let done = about(world, uri.clone(), move |query| {

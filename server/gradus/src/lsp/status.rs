@@ -9,6 +9,7 @@ use tower_lsp::ls_types::notification::Notification;
 
 use super::document::Document;
 use super::query::Pair;
+use super::requests::verify;
 use super::world::World;
 
 /// The notification, for clients that announce `gradusStatus`.
@@ -37,6 +38,18 @@ pub struct Status {
     stale: usize,
     /// How the two stand, in a word.
     verdict: Verdict,
+    /// The same in a line for people.
+    message: String,
+    /// Whether the spec does what the ladder does; left out where there is no spec.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    proof: Option<Proof>,
+}
+
+/// Whether a spec does what its ladder does, as far as that is known.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+struct Proof {
+    /// `equivalent`, `different`, `unknown` and so on.
+    verdict: String,
     /// The same in a line for people.
     message: String,
 }
@@ -100,7 +113,16 @@ pub fn of(world: World, document: Arc<Document>) -> Option<Status> {
         Verdict::InStep => format!("in step with the spec; {} suggestions open", count.open),
         Verdict::Behind => format!("the ladder does not support {stale} parts of the spec"),
     };
+    let proof = pair.spec.as_ref().map(|spec| {
+        let settings = world.config(&spec.key).verify;
+        let standing = world.verdicts.standing(&pair, &settings);
+        Proof {
+            verdict: verify::word(&standing).to_owned(),
+            message: verify::line(&standing),
+        }
+    });
     Some(Status {
+        proof,
         uri: pair.ladder.as_ref()?.uri.clone(),
         states,
         accepted: count.accepted,

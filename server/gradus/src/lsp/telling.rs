@@ -17,6 +17,7 @@ use tower_lsp::ls_types::{
 use super::document::Document;
 use super::key::FileKey;
 use super::progress::{self, Work};
+use super::proving;
 use super::publish;
 use super::query::elsewhere;
 use super::requests::command::Done;
@@ -140,6 +141,7 @@ pub fn choose(shared: &Arc<Shared>, chosen: Option<Chosen>) {
 pub fn everything(shared: &Arc<Shared>) {
     let world = shared.state.world();
     for key in world.open.keys() {
+        proving::changed(shared, key);
         findings(shared, key);
     }
     refresh(shared);
@@ -148,6 +150,7 @@ pub fn everything(shared: &Arc<Shared>) {
 /// Tells what is new when the document of `key` has changed: its findings, and
 /// those of the documents that depend on it.
 pub fn changed(shared: &Arc<Shared>, key: &FileKey) {
+    proving::changed(shared, key);
     findings(shared, key);
     let partners = shared.state.world().open_partners(key);
     for partner in &partners {
@@ -158,6 +161,23 @@ pub fn changed(shared: &Arc<Shared>, key: &FileKey) {
     }
     scenarios(shared, key);
     status(shared, key);
+}
+
+/// Tells what is new when it is known how a ladder and its spec of this stem
+/// stand: findings in the spec, its lens, the status.
+pub fn judged(shared: &Arc<Shared>, stem: &FileKey) {
+    // Who waits for findings in whole folders looks again.
+    let open = shared.state.change(|world| {
+        let of_stem = world.open.keys().filter(|it| it.without_ending() == *stem);
+        of_stem.cloned().collect::<Vec<FileKey>>()
+    });
+    for key in &open {
+        findings(shared, key);
+    }
+    shown::ask_again(shared);
+    if let Some(key) = open.first() {
+        status(shared, key);
+    }
 }
 
 /// Tells what is new of the open scenarios that run on the document of `key`:
@@ -210,6 +230,7 @@ pub fn closed(shared: &Arc<Shared>, document: &Document) {
     let (shared, uri) = (Arc::clone(shared), document.uri.clone());
     let key = document.key.clone();
     shared.tellers.stop(&key);
+    proving::closed(&shared, &key);
     tokio::spawn(async move {
         let world = shared.state.world();
         if !world.abilities.pulls_diagnostics && !world.open.contains_key(&key) {

@@ -8,6 +8,7 @@
 //! | `gradus-ladder:/p/tank.L5X.ladder?URI` | the ladder of the document URI in rung notation |
 //! | `gradus-conditions:/p/tank.L5X.txt?URI` | the conditions of all its coils |
 //! | `gradus-simulation:/p/fill.scenario.txt?URI` | the scans of the scenario URI |
+//! | `gradus-verdict:/p/tank.grafcet.txt?URI` | whether the spec URI does what its ladder does |
 //! | `gradus-explain:/G2002.md` | the page of a code |
 //! | `gradus-explain:/latch.md` | the page of a word |
 
@@ -20,6 +21,8 @@ use source::Code;
 use tower_lsp::ls_types::Uri;
 
 use super::document::Document;
+use super::query::Pair;
+use super::requests::verify;
 use super::simulation;
 use super::world::World;
 use crate::command::conditions;
@@ -137,6 +140,10 @@ pub fn text(world: &World, uri: &Uri, budget: &Budget) -> Option<String> {
     if scheme == simulation::SCHEME {
         let simulated = simulation::simulated(world, &made_from(world, uri)?)?;
         return Some(simulated.text);
+    }
+    if scheme == verify::SCHEME {
+        let pair = Pair::of(world, &made_from(world, uri)?);
+        return verify::shown(world, &pair);
     }
     let mut views = [View::Ladder, View::Conditions].into_iter();
     let view = views.find(|view| view.scheme() == scheme)?;

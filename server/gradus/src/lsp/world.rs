@@ -20,6 +20,7 @@ use super::key::{FileKey, beside};
 use super::position::Encoding;
 use super::runs::Runs;
 use super::settings::Settings;
+use super::verdicts::Verdicts;
 use crate::input::LADDER_ENDINGS;
 use crate::settings::Config;
 
@@ -42,6 +43,8 @@ pub struct World {
     pub is_ending: bool,
     /// What came of scenarios.
     pub runs: Arc<Runs>,
+    /// Whether specs do what their ladders do.
+    pub verdicts: Arc<Verdicts>,
     /// The scan that is shown in ladder and spec.
     pub chosen: Option<Chosen>,
 }

@@ -34,6 +34,8 @@ pub struct Config {
     pub suggestions: Suggestions,
     /// Findings.
     pub diagnostics: Diagnostics,
+    /// Proofs that a spec does what its ladder does.
+    pub verify: Verify,
     /// The largest file that is analysed, in MiB.
     pub max_file_size: MaxFileSize,
 }
@@ -108,6 +110,51 @@ impl Diagnostics {
     }
 }
 
+/// Proofs that a spec does what its ladder does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema), schemars(inline))]
+#[serde(rename_all = "camelCase", default, deny_unknown_fields)]
+pub struct Verify {
+    /// Find out in the background whether a spec does what its ladder does, whenever one of the two was changed.
+    pub enable: bool,
+    /// When outputs of ladder and spec are compared.
+    pub timing: Timing,
+    /// How much work that may be in the background, in millions of small steps. A hundred are about a second.
+    pub effort: Effort,
+}
+
+/// When outputs are compared.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema), schemars(inline))]
+#[serde(rename_all = "lowercase")]
+pub enum Timing {
+    /// After every scan.
+    Scan,
+    /// When both sides have come to rest with the same inputs.
+    Settled,
+}
+
+impl From<Timing> for verification::Timing {
+    fn from(timing: Timing) -> Self {
+        match timing {
+            Timing::Scan => Self::Scan,
+            Timing::Settled => Self::Settled,
+        }
+    }
+}
+
+/// How much work something may be, in millions of small steps.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema), schemars(inline))]
+pub struct Effort(NonZeroU32);
+
+impl Effort {
+    /// The number.
+    pub fn millions(self) -> u64 {
+        self.0.get().into()
+    }
+}
+
 /// The largest file that is analysed, in MiB.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema), schemars(inline))]
@@ -146,6 +193,17 @@ impl Default for Diagnostics {
             enable: true,
             workspace: true,
             ignore: Vec::new(),
+        }
+    }
+}
+
+impl Default for Verify {
+    fn default() -> Self {
+        const USUAL: NonZeroU32 = NonZeroU32::new(50).expect("more than none");
+        Self {
+            enable: true,
+            timing: Timing::Scan,
+            effort: Effort(USUAL),
         }
     }
 }

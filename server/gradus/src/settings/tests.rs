@@ -69,7 +69,7 @@ diagnostics.ignore = [\"G2004\", \"G9999\", 2005]
         said(text),
         [
             "G4102 at \"codelens\": there is no setting `codelens` \
-             (known here: `codeLens`, `inlayHints`, `suggestions`, `diagnostics`, `maxFileSize`)",
+             (known here: `codeLens`, `inlayHints`, `suggestions`, `diagnostics`, `verify`, `maxFileSize`)",
             "G4103 at \"'no'\": `inlayHints.enable` is \"no\"; expected true or false",
             "G4102 at \"color\": there is no setting `inlayHints.color` (known here: `enable`)",
             "G4103 at \"-1\": `maxFileSize` is -1; expected a whole number, 1 or more",

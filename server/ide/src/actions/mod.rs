@@ -6,15 +6,17 @@
 mod mend;
 mod scenario;
 mod states;
+mod verdict;
 
 use logic::{Budget, Name};
 use recovery::successions::Evidence;
 use source::{Code, Diagnostic, Fix, Span};
 
-use crate::{Change, Departing, Ladder, Shows, Spec};
+use crate::{About, Change, Departing, Ladder, Shows, Spec};
 use mend::{explaining, fixing, keeping, renewing, withdrawing};
 pub use scenario::actions_in_scenario;
 use states::{about_states, in_ladder, in_spec};
+pub use verdict::actions_on_verdict;
 
 /// Something that can be done.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -52,6 +54,10 @@ pub enum ActionKind {
     Expect,
     /// Shows a scan in ladder and spec, or shows it no more.
     Scan,
+    /// Keeps a sequence that shows a difference as a scenario.
+    Trace,
+    /// Says that the plant cannot do what such a sequence needs.
+    Exclude,
 }
 
 /// What an action does.
@@ -65,6 +71,8 @@ pub enum Effect {
     Show(Code),
     /// Shows a scan of the scenario that the action is taken in.
     Look(Shows),
+    /// Makes a scenario of the sequence that shows this.
+    Scenario(About),
 }
 
 /// Where somebody asks what can be done.

@@ -2,10 +2,10 @@
 
 use ladder::Program;
 use logic::notation::{quoted, time};
-use logic::{Datum, Name};
+use logic::{Datum, Name, Relation};
 use proof::Why;
 use verification::inputs::Source;
-use verification::{Difference, Reason, Timing, Verdict, Verification, What, rungs_of};
+use verification::{Difference, Reason, Step, Timing, Verdict, Verification, What, rungs_of};
 
 use crate::colour::Paint;
 use crate::input::numbered;
@@ -127,42 +127,59 @@ fn names_of(names: &[Name]) -> String {
 
 /// The trace as a table, and what else is to be said of it.
 fn shown(difference: &Difference, timing: Timing, paint: Paint) -> String {
-    let takes_time = difference
-        .trace
-        .steps
-        .iter()
-        .any(|step| step.elapsed_ms > 0);
-    let mut rows = vec![vec![
-        timing.word().replace("settled", "step"),
-        "time".to_owned(),
-        "inputs".to_owned(),
-        "ladder".to_owned(),
-        "spec".to_owned(),
-        "active steps".to_owned(),
-    ]];
+    let trace = &difference.trace.steps;
+    let takes_time = trace.iter().any(|step| step.elapsed_ms > 0);
     let mut passed = 0;
-    for (at, step) in difference.trace.steps.iter().enumerate() {
+    let mut cells = Vec::new();
+    for (at, step) in trace.iter().enumerate() {
         passed += step.elapsed_ms;
-        rows.push(vec![
+        cells.push(vec![
             (at + 1).to_string(),
             time(passed).to_string(),
             on(pairs(&step.inputs)),
             on(pairs(&step.ladder)),
             on(pairs(&step.grafcet)),
             printable(&step.active.join(" ")),
+            printable(&differing(step).join(" ")),
         ]);
     }
-    if !takes_time {
-        for row in &mut rows {
-            row.remove(1);
-        }
-    }
+    let head = timing.word().replace("settled", "step");
+    let heads = [
+        &head,
+        "time",
+        "inputs",
+        "ladder",
+        "spec",
+        "active steps",
+        "differ",
+    ];
+    let differ = cells
+        .iter()
+        .any(|row| row.last().is_some_and(|it| !it.is_empty()));
+    let is_shown = [true, takes_time, true, true, true, true, differ];
+    let shown = |row: Vec<String>| -> Vec<String> {
+        let all = row.into_iter().zip(is_shown);
+        all.filter_map(|(cell, is_shown)| is_shown.then_some(cell))
+            .collect()
+    };
+    let mut rows = vec![shown(heads.map(str::to_owned).to_vec())];
+    rows.extend(cells.into_iter().map(shown));
     let mut out = table(&rows, paint);
     if difference.is_brief {
         out += "  It is over after another scan with the same inputs, as where a rung looks at\n  \
                 what a rung below it decides.\n";
     }
     out
+}
+
+/// The outputs in which the two sides differ after a step.
+fn differing(step: &Step) -> Vec<Name> {
+    let differs = |(name, value): &&(Name, Datum)| {
+        let own = step.ladder.iter().find(|(it, _)| it == name);
+        own.is_some_and(|(_, own)| !own.compares(Relation::Equal, *value))
+    };
+    let all = step.grafcet.iter().filter(differs);
+    all.map(|(name, _)| name.clone()).collect()
 }
 
 fn table(rows: &[Vec<String>], paint: Paint) -> String {

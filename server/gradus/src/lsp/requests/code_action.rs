@@ -6,8 +6,8 @@
 use std::sync::Arc;
 
 use ide::{
-    Action, ActionKind, Asked, Change, Departing, Effect, Shows, actions_in_ladder,
-    actions_in_scenario, actions_in_spec,
+    About, Action, ActionKind, Asked, Change, Departing, Effect, Observed, Shows,
+    actions_in_ladder, actions_in_scenario, actions_in_spec, actions_on_verdict,
 };
 use serde::{Deserialize, Serialize};
 use serde_json::json;
@@ -20,8 +20,11 @@ use tower_lsp::ls_types::{
 use super::command::EXPLAIN;
 use super::simulate::{HIDE_SCAN, SHOW_SCAN};
 use crate::lsp::edit::Changes;
+use crate::lsp::key::{FileKey, in_folder_of};
+use crate::lsp::plant::Plant;
 use crate::lsp::publish;
 use crate::lsp::query::{Pair, Query, Text};
+use crate::lsp::verdicts::verdict;
 
 /// What an action that was not worked out yet needs to be.
 #[derive(Debug, Serialize, Deserialize)]
@@ -30,14 +33,27 @@ pub struct Pending {
     pub uri: Uri,
     /// The state of that document.
     version: Option<i32>,
-    /// What is decided, as [`Change`] spells it.
-    changes: Vec<String>,
-    /// Whether rules that depart from the ladder are renewed.
-    renew: bool,
+    work: Work,
+}
+
+/// What it does.
+#[derive(Debug, Serialize, Deserialize)]
+enum Work {
+    /// Changes the spec beside the ladder.
+    Spec {
+        /// What is decided, as [`Change`] spells it.
+        changes: Vec<String>,
+        /// Whether rules that depart from the ladder are renewed.
+        renew: bool,
+    },
+    /// Makes a scenario of the sequence that shows a difference.
+    TraceOfOutputs,
+    /// Makes one of the sequence that shows that a property is violated.
+    TraceOfProperty(String),
 }
 
 /// The kinds of actions that are offered.
-pub const KINDS: [&str; 10] = [
+pub const KINDS: [&str; 12] = [
     "quickfix",
     "refactor.gradus.accept",
     "refactor.gradus.acceptTogether",
@@ -48,6 +64,8 @@ pub const KINDS: [&str; 10] = [
     "quickfix.gradus.explain",
     "refactor.gradus.expect",
     "quickfix.gradus.scan",
+    "quickfix.gradus.trace",
+    "quickfix.gradus.exclude",
 ];
 
 fn kind(kind: ActionKind) -> &'static str {
@@ -62,6 +80,8 @@ fn kind(kind: ActionKind) -> &'static str {
         ActionKind::Explain => 7,
         ActionKind::Expect => 8,
         ActionKind::Scan => 9,
+        ActionKind::Trace => 10,
+        ActionKind::Exclude => 11,
     };
     KINDS[at]
 }
@@ -88,7 +108,11 @@ pub fn answer(
     let both = pair.looked_at();
     let actions = match query.text()? {
         Text::Ladder(ladder) => actions_in_ladder(ladder, both.spec, asked),
-        Text::Spec(spec) => actions_in_spec(spec, both.ladder, asked),
+        Text::Spec(spec) => {
+            let mut all = on_verdict(query, &pair, asked);
+            all.extend(actions_in_spec(spec, both.ladder, asked));
+            all
+        }
         Text::Scenario(scenario) => {
             let (_, run) = query.run()?;
             actions_in_scenario(scenario, &run, query.chosen_step(&run), asked)
@@ -126,7 +150,7 @@ fn in_protocol(
         is_preferred: action.preferred.then_some(true),
         ..CodeAction::default()
     };
-    if action.kind == ActionKind::Fix {
+    if [ActionKind::Fix, ActionKind::Trace, ActionKind::Exclude].contains(&action.kind) {
         answered.diagnostics = Some(context.diagnostics.clone());
     }
     match action.effect {
@@ -164,37 +188,108 @@ fn in_protocol(
             answered.edit = Some(changes.workspace_edit(&query.world));
         }
         Effect::Spec(changes, departing) if query.world.abilities.resolves_edits => {
-            let pending = Pending {
-                uri: query.document.uri.clone(),
-                version: query.document.version,
-                changes: changes.iter().map(Change::to_string).collect(),
-                renew: departing == Departing::Renewed,
-            };
-            answered.data = serde_json::to_value(pending).ok();
+            answered.data = pending(
+                query,
+                Work::Spec {
+                    changes: changes.iter().map(Change::to_string).collect(),
+                    renew: departing == Departing::Renewed,
+                },
+            );
         }
         Effect::Spec(changes, departing) => {
             answered.edit = Some(spec_edit(query, pair, &action.title, &changes, departing)?);
         }
+        Effect::Scenario(about) if query.world.abilities.resolves_edits => {
+            let work = match about {
+                About::Outputs => Work::TraceOfOutputs,
+                About::Property(label) => Work::TraceOfProperty(label.to_string()),
+            };
+            answered.data = pending(query, work);
+        }
+        Effect::Scenario(about) => {
+            answered.edit = Some(trace_edit(query, pair, &action.title, &about)?);
+        }
     }
     Some(answered)
 }
+
+/// What an action has to be told when it is taken.
+fn pending(query: &Query, work: Work) -> Option<serde_json::Value> {
+    let pending = Pending {
+        uri: query.document.uri.clone(),
+        version: query.document.version,
+        work,
+    };
+    serde_json::to_value(pending).ok()
+}
+
+/// What can be done about a difference between the spec and its ladder.
+fn on_verdict(query: &Query, pair: &Pair, asked: Asked<'_>) -> Vec<Action> {
+    let verdict = verdict(&query.world, pair);
+    let judged = verdict.as_deref().and_then(|it| pair.judged(it));
+    let observed = || {
+        let scenarios = query.world.scenarios_of(pair);
+        let seen = scenarios.iter().take(MOST_OBSERVED).filter_map(|document| {
+            let plant = Plant::of(&query.world, document)?;
+            let run = query.world.runs.run(document, document.scenario()?, &plant);
+            // Of the spec alone nobody knows what the plant's ladder did.
+            plant.pair.ladder.as_ref()?;
+            Some(Observed::of(run.simulation.as_ref()?))
+        });
+        seen.collect()
+    };
+    judged.map_or_else(Vec::new, |it| actions_on_verdict(it, &observed, asked))
+}
+
+/// Scenarios that are asked what was seen at the plant.
+const MOST_OBSERVED: usize = 32;
+
+/// The edit that makes a scenario of a sequence, beside the spec.
+fn trace_edit(query: &Query, pair: &Pair, title: &str, about: &About) -> Option<WorkspaceEdit> {
+    let verdict = verdict(&query.world, pair)?;
+    let (ladder, spec) = (pair.ladder.as_ref()?, pair.spec.as_ref()?);
+    let files = [ladder.key.name(), spec.key.name()];
+    let text = ide::trace_scenario(pair.judged(&verdict)?, about, &files)?;
+    let name = spec.key.name();
+    let stem = name.rsplit_once('.').map_or(&*name, |(stem, _)| stem);
+    let mut places = (1..MOST_NAMES)
+        .filter_map(|number| in_folder_of(&spec.uri, &ide::trace_name(stem, number)));
+    let is_free = |uri: &Uri| {
+        let key = FileKey::of(uri);
+        let on_disk = key.path().is_some_and(std::path::Path::exists);
+        !on_disk && !query.world.open.contains_key(&key)
+    };
+    let mut edit = Changes::new(title);
+    edit.create(places.find(is_free)?, text);
+    Some(edit.workspace_edit(&query.world))
+}
+
+/// Names that are tried for a new scenario.
+const MOST_NAMES: u32 = 1_000;
 
 /// The action with what it changes. `None` if the document has moved on.
 pub fn resolve(query: &Query, pending: &Pending, mut action: CodeAction) -> Option<CodeAction> {
     if query.document.version != pending.version {
         return None;
     }
-    let changes: Option<Vec<Change>> = pending
-        .changes
-        .iter()
-        .map(|text| Change::parse(text))
-        .collect();
-    let departing = match pending.renew {
-        true => Departing::Renewed,
-        false => Departing::Stay,
-    };
     let pair = query.pair();
-    action.edit = spec_edit(query, &pair, &action.title, &changes?, departing);
+    action.edit = match &pending.work {
+        Work::Spec { changes, renew } => {
+            let changes = changes.iter().map(|text| Change::parse(text));
+            let changes: Option<Vec<Change>> = changes.collect();
+            let departing = match renew {
+                true => Departing::Renewed,
+                false => Departing::Stay,
+            };
+            spec_edit(query, &pair, &action.title, &changes?, departing)
+        }
+        // The ladder may have changed since, and its difference with it.
+        Work::TraceOfOutputs => Some(trace_edit(query, &pair, &action.title, &About::Outputs)?),
+        Work::TraceOfProperty(label) => {
+            let about = About::Property(label.as_str().into());
+            Some(trace_edit(query, &pair, &action.title, &about)?)
+        }
+    };
     Some(action)
 }
 

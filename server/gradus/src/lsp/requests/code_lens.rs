@@ -7,7 +7,8 @@ use tower_lsp::ls_types::{CodeLens, Command};
 
 use super::command::OPEN_SPEC;
 use super::simulate::{HIDE_SCAN, SHOW_SCAN, SIMULATE};
-use crate::lsp::query::{Query, Text};
+use super::verify::{self, VERIFY};
+use crate::lsp::query::{Pair, Query, Text};
 
 /// The lenses of a document.
 pub fn answer(query: &Query) -> Option<Vec<CodeLens>> {
@@ -44,7 +45,17 @@ pub fn answer(query: &Query) -> Option<Vec<CodeLens>> {
             json!({ "uri": scenario.uri }),
         ))
     });
-    Some(scenarios.chain(lenses).collect())
+    let verdict = verdict(query, &pair, place);
+    Some(verdict.into_iter().chain(scenarios).chain(lenses).collect())
+}
+
+/// Above a spec: whether it does what its ladder does.
+fn verdict(query: &Query, pair: &Pair, place: Option<Span>) -> Option<CodeLens> {
+    query.spec()?;
+    let standing = query.world.verdicts.standing(pair, &query.config().verify);
+    let title = verify::line(&standing);
+    let argument = json!({ "uri": query.document.uri });
+    Some(lens(query, place?, title, VERIFY, argument))
 }
 
 /// Scenarios that are named above the beginning of a ladder or a spec.

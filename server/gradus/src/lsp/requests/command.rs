@@ -8,6 +8,7 @@
 //! | `gradus.ladderText` | `{ "uri" }` | the ladder in rung notation |
 //! | `gradus.conditions` | `{ "uri" }` | the conditions of all coils |
 //! | `gradus.simulate` | `{ "uri" }` | the scans of a scenario |
+//! | `gradus.verify` | `{ "uri" }` | whether the spec does what the ladder does |
 //! | `gradus.showScan` | `{ "uri", "line" or "scan" }` | shows a scan in ladder and spec |
 //! | `gradus.hideScan` | | shows it no more |
 //! | `gradus.explain` | a code | its page |
@@ -22,6 +23,7 @@ use tower_lsp::ls_types::{ExecuteCommandParams, Uri, WorkspaceEdit};
 
 use super::code_action::put;
 use super::simulate::{HIDE_SCAN, SHOW_SCAN, SIMULATE, Wanted};
+use super::verify::VERIFY;
 use crate::lsp::edit::Changes;
 use crate::lsp::log::Log;
 use crate::lsp::query::Query;
@@ -35,7 +37,7 @@ pub const EXPLAIN: &str = "gradus.explain";
 pub const OPEN_SPEC: &str = "gradus.openSpec";
 
 /// All commands.
-pub const ALL: [&str; 10] = [
+pub const ALL: [&str; 11] = [
     "gradus.convert",
     "gradus.acceptHandovers",
     OPEN_SPEC,
@@ -44,6 +46,7 @@ pub const ALL: [&str; 10] = [
     SIMULATE,
     SHOW_SCAN,
     HIDE_SCAN,
+    VERIFY,
     EXPLAIN,
     "gradus.report",
 ];
@@ -55,6 +58,8 @@ pub enum Command {
     Ladder(Uri, LadderCommand),
     /// Show the scans of the scenario at an address.
     Simulate(Uri),
+    /// Find out whether the spec of the pair at an address does what its ladder does.
+    Verify(Uri),
     /// Show, in ladder and spec, a scan of the scenario at an address.
     ShowScan(Uri, Wanted),
     /// Show no scan any more.
@@ -116,6 +121,7 @@ pub fn read(params: ExecuteCommandParams) -> Result<Command> {
     };
     let (uri, command) = match name.as_str() {
         SIMULATE => return Ok(Command::Simulate(argument()?.uri)),
+        VERIFY => return Ok(Command::Verify(argument()?.uri)),
         SHOW_SCAN => {
             let argument = argument()?;
             let number = argument.scan.map(Wanted::Number);

@@ -21,4 +21,5 @@ pub mod signature_help;
 pub mod simulate;
 pub mod symbols;
 pub mod tokens;
+pub mod verify;
 pub mod workspace_diagnostic;
