@@ -40,7 +40,8 @@
 //!   from gates or from the expressions and functions of `logic`.
 //!   [`Netlist::place`] copies gates, [`compare`] puts two netlists side by
 //!   side, [`Netlist::cone`] cuts out what some properties depend on.
-//! * [`Trace`] and [`replay`]: a sequence of inputs and what it does.
+//! * [`Trace`], [`replay`] and [`violation`]: a sequence of inputs and what it
+//!   does.
 //! * [`check`]: all engines, one [`Report`]. [`Limits`] bound its work and
 //!   memory; there is no clock, so the answer is the same on every machine.
 //! * [`blif`] and [`aiger`]: the same netlist for tools of others.
@@ -55,6 +56,7 @@ mod components;
 mod cone;
 mod correspondence;
 mod diagrams;
+mod enumeration;
 mod explore;
 mod export;
 mod express;
@@ -70,6 +72,7 @@ mod place;
 mod plain;
 mod random;
 mod reach;
+mod relation;
 mod report;
 mod runs;
 mod signal;
@@ -88,7 +91,7 @@ pub use place::Placed;
 pub use report::{Difference, Proof, Report, Status, Verdict};
 pub use signal::Signal;
 pub use supposed::Supposed;
-pub use trace::{Replay, Trace, replay};
+pub use trace::{Replay, Trace, replay, violation};
 
 #[cfg(test)]
 mod tests;
