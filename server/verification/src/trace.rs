@@ -1,7 +1,7 @@
 //! A sequence of inputs, with what came of it on both sides.
 
-use logic::{Datum, Name};
-use proof::{Netlist, Signal, Trace as Signals, replay};
+use logic::{Cancel, Datum, Name, Stop};
+use proof::{Netlist, Signal, Trace as Signals, violation};
 use scenario::{Change, Passing, Scenario};
 use source::Span;
 
@@ -89,16 +89,25 @@ impl Trace {
 /// property in its last step still does so there, and nothing forbids it.
 ///
 /// It costs a replay for each change; of a long trace only as many are tried as
-/// are worth it.
-pub(crate) fn simplified(netlist: &Netlist, trace: &Signals, bad: &[Signal]) -> Signals {
+/// are worth it, and none after a cancel.
+pub(crate) fn simplified(
+    netlist: &Netlist,
+    trace: &Signals,
+    bad: &[Signal],
+    cancel: &Cancel,
+) -> Signals {
     let mut judge = netlist.clone();
     for signal in bad {
         judge.never("violated", *signal);
     }
     let last = trace.scans().saturating_sub(1);
     let is_good = |tried: &Signals| {
-        let replayed = replay(&judge, tried);
-        let violated = replayed.violation.filter(|(at, _)| *at == last);
+        let look = || match cancel.is_cancelled() {
+            true => Err(Stop::Cancelled),
+            false => Ok(()),
+        };
+        let seen = violation(&judge, tried, look).ok().flatten();
+        let violated = seen.filter(|(at, _)| *at == last);
         violated.is_some_and(|(_, names)| names.iter().any(|name| &**name == "violated"))
     };
     let mut best = trace.clone();
@@ -111,7 +120,7 @@ pub(crate) fn simplified(netlist: &Netlist, trace: &Signals, bad: &[Signal]) -> 
         for scan in 0..best.inputs.len() {
             for input in 0..best.inputs[scan].len() {
                 let before = scan.checked_sub(1).is_some_and(|at| best.inputs[at][input]);
-                if best.inputs[scan][input] != before && left > 0 {
+                if best.inputs[scan][input] != before && left > 0 && !cancel.is_cancelled() {
                     left -= 1;
                     let mut tried = best.clone();
                     tried.inputs[scan][input] = before;
