@@ -1,3 +1,4 @@
+use std::fmt;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -11,18 +12,44 @@ pub enum Stop {
 }
 
 /// A flag that asks running work to stop. Clones share the flag.
-#[derive(Clone, Debug, Default)]
-pub struct Cancel(Arc<AtomicBool>);
+#[derive(Clone, Default)]
+pub struct Cancel(Arc<Flag>);
+
+#[derive(Default)]
+struct Flag {
+    is_set: AtomicBool,
+    asked: Option<Box<dyn Fn() -> bool + Send + Sync>>,
+}
 
 impl Cancel {
+    /// A flag that is set, besides, when `asked` says so. It is called whenever
+    /// running work looks at the flag, and so also tells how often that is.
+    pub fn when(asked: impl Fn() -> bool + Send + Sync + 'static) -> Self {
+        Self(Arc::new(Flag {
+            is_set: AtomicBool::new(false),
+            asked: Some(Box::new(asked)),
+        }))
+    }
+
     /// Asks to stop.
     pub fn cancel(&self) {
-        self.0.store(true, Ordering::Relaxed);
+        self.0.is_set.store(true, Ordering::Relaxed);
     }
 
     /// Whether somebody asked to stop.
     pub fn is_cancelled(&self) -> bool {
-        self.0.load(Ordering::Relaxed)
+        let is_asked = self.0.asked.as_ref().is_some_and(|asked| asked());
+        if is_asked {
+            self.cancel();
+        }
+        self.0.is_set.load(Ordering::Relaxed)
+    }
+}
+
+impl fmt::Debug for Cancel {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let is_set = self.0.is_set.load(Ordering::Relaxed);
+        f.debug_tuple("Cancel").field(&is_set).finish()
     }
 }
 
@@ -57,5 +84,22 @@ impl Budget {
         } else {
             Ok(())
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::atomic::AtomicUsize;
+
+    #[test]
+    fn a_flag_that_asks_stays_set_for_all_who_share_it() {
+        let looks = Arc::new(AtomicUsize::new(0));
+        let counted = looks.clone();
+        let cancel = Cancel::when(move || counted.fetch_add(1, Ordering::Relaxed) == 2);
+        let shared = cancel.clone();
+        let seen = [&cancel, &shared, &cancel, &shared].map(Cancel::is_cancelled);
+        assert_eq!(seen, [false, false, true, true]);
+        assert_eq!(looks.load(Ordering::Relaxed), 4);
     }
 }

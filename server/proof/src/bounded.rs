@@ -4,7 +4,7 @@
 //! in this very scan? The first yes is a shortest trace.
 
 use crate::graph::Graph;
-use crate::limits::{Meter, Why};
+use crate::limits::{Meter, STRIDE, Why};
 use crate::place::copy;
 use crate::solver::{Answer, Solver};
 use crate::{Gates, Netlist, Signal, Trace};
@@ -91,11 +91,11 @@ impl<'n> Bounded<'n> {
     /// Unrolls one scan: its properties.
     fn unroll(&mut self, meter: &mut Meter) -> Result<Vec<Signal>, Why> {
         meter.fits(self.graph.len() + self.netlist.size())?;
-        meter.spend(self.netlist.size())?;
         let inputs: Vec<Signal> = (0..self.netlist.inputs.len())
             .map(|_| self.graph.leaf())
             .collect();
-        let placed = copy(self.netlist, &inputs, &self.state, &mut self.graph);
+        let look = |_: &Graph| meter.spend(STRIDE);
+        let placed = copy(self.netlist, &inputs, &self.state, &mut self.graph, look)?;
         for &constraint in &self.netlist.constraints {
             let signal = placed.of(constraint);
             self.solver.assert(&self.graph, signal, meter)?;

@@ -1,19 +1,30 @@
+use logic::Name;
+
 use crate::bounded::{Bounded, Scan};
 use crate::classes::Classes;
 use crate::components::components;
 use crate::cone::{Cutter, joined};
 use crate::correspondence::corresponding;
+use crate::enumeration::Enumeration;
 use crate::explore::explore;
 use crate::frame::Framing;
 use crate::induction::Induction;
 use crate::limits::{Limits, Meter, Why};
 use crate::observers::observe;
-use crate::reach::{Reached, reach};
+use crate::reach::Reached;
 use crate::report::{Difference, Proof, Report, Status, Verdict};
-use crate::{Cone, Netlist, Signal, Trace, replay};
+use crate::{Cone, Netlist, Signal, Trace, violation};
 
 /// The first turn of each engine, in steps; every further one is twice as long.
-const TURN: u64 = 10_000_000;
+/// So all engines together take no more than a few times what the one takes that
+/// decides, be that microseconds or minutes.
+const TURN: u64 = 50_000;
+/// The first turn of a large netlist, in steps a node: enough to look at each
+/// once.
+const A_NODE: u64 = 20;
+/// The first turn of the search through all states: where these are few it is
+/// over before the other engines have begun.
+const AHEAD: u64 = 500_000;
 
 /// Whether a property of the netlist can be violated, by all engines together.
 ///
@@ -35,8 +46,9 @@ struct Checking<'n> {
     /// Steps that are left.
     left: u64,
     status: Vec<Status>,
-    /// The shortest violation found so far.
-    trace: Option<Trace>,
+    /// The shortest violation found so far, as it was seen to happen, and the
+    /// properties that are violated in its last scan.
+    trace: Option<(Trace, Vec<Name>)>,
     /// No trace of so many scans or fewer violates a property.
     clean: usize,
 }
@@ -70,7 +82,7 @@ impl<'n> Checking<'n> {
     /// Whether the answer is complete.
     fn is_decided(&self) -> bool {
         match &self.trace {
-            Some(trace) => self.clean + 1 >= trace.scans(),
+            Some((trace, _)) => self.clean + 1 >= trace.scans(),
             None => self.open().is_empty(),
         }
     }
@@ -122,16 +134,20 @@ impl<'n> Checking<'n> {
             .zip(&framings)
             .map(|(part, framing)| Induction::new(framing, &part.classes))
             .collect();
-        let mut refuted = vec![false; self.status.len()];
+        let mut enumeration = Enumeration::new(&cores);
         let mut bounded = Bounded::new(&core.netlist);
-        let mut steps = TURN;
+        let mut steps = TURN.max(A_NODE * core.netlist.size() as u64);
         while !self.is_decided() {
             let before = self.left;
-            self.turn(steps, |it, meter| it.search(&core, &mut bounded, meter))?;
-            for (part, induction) in parts.iter().zip(&mut inductions) {
-                self.turn(steps, |it, meter| it.induce(&part.cone, induction, meter))?;
+            // With a trace in hand, all that is asked is whether a shorter one is.
+            if self.trace.is_none() {
+                let ahead = steps.max(AHEAD);
+                self.turn(ahead, |it, meter| it.enumerate(&mut enumeration, meter))?;
+                for (part, induction) in parts.iter().zip(&mut inductions) {
+                    self.turn(steps, |it, meter| it.induce(&part.cone, induction, meter))?;
+                }
             }
-            self.turn(steps, |it, meter| it.enumerate(&cores, &mut refuted, meter))?;
+            self.turn(steps, |it, meter| it.search(&core, &mut bounded, meter))?;
             if self.left == before {
                 // Nobody had anything left to try.
                 let is_end = bounded.clean >= self.limits.scans;
@@ -167,20 +183,29 @@ impl<'n> Checking<'n> {
 
     /// Random runs, and what they make candidates of.
     fn sample(&mut self, cone: &mut Cone, meter: &mut Meter) -> Result<Classes, Why> {
-        let explored = explore(&cone.netlist, meter)?;
-        observe(&mut cone.netlist, &explored, meter)?;
-        let observed = explore(&cone.netlist, meter)?;
-        if let Some(trace) = observed.trace {
-            let trace = cone.whole(self.netlist, &trace);
-            let is_shorter = |known: &Trace| trace.scans() < known.scans();
+        let mut explored = explore(&cone.netlist, meter)?;
+        if let Some(trace) = &explored.trace {
             // What other parts of the environment forbid does not count.
-            if self.trace.as_ref().is_none_or(is_shorter)
-                && replay(self.netlist, &trace).violation.is_some()
-            {
-                self.trace = Some(trace);
-            }
+            self.confirm(cone.whole(self.netlist, trace), meter)?;
         }
-        Ok(observed.classes)
+        observe(&mut cone.netlist, &explored, meter)?;
+        explored.take_in(&cone.netlist, meter)?;
+        Ok(explored.classes())
+    }
+
+    /// Runs a trace. Whether a property is violated in its last scan and nothing
+    /// is forbidden; it is kept then, if it is shorter than what is known.
+    fn confirm(&mut self, trace: Trace, meter: &mut Meter) -> Result<bool, Why> {
+        let nodes = self.netlist.size();
+        let seen = violation(self.netlist, &trace, || meter.spend(2 * nodes))?;
+        let Some((_, properties)) = seen.filter(|(scan, _)| scan + 1 == trace.scans()) else {
+            return Ok(false);
+        };
+        let is_shorter = |(known, _): &(Trace, _)| trace.scans() < known.scans();
+        if self.trace.as_ref().is_none_or(is_shorter) {
+            self.trace = Some((trace, properties));
+        }
+        Ok(true)
     }
 
     /// Tries longer and longer sequences.
@@ -194,7 +219,13 @@ impl<'n> Checking<'n> {
             let is_open = |at: usize| self.status[cone.properties[at]] == Status::Open;
             match bounded.advance(is_open, meter)? {
                 Scan::Clean => self.clean = self.clean.max(bounded.clean),
-                Scan::Violated(trace) => self.trace = Some(cone.whole(self.netlist, &trace)),
+                Scan::Violated(trace) => {
+                    let trace = cone.whole(self.netlist, &trace);
+                    return match self.confirm(trace, meter)? {
+                        true => Ok(()),
+                        false => Err(Why::Unconfirmed),
+                    };
+                }
                 Scan::Forbidden => {
                     for place in self.open() {
                         self.status[place] = Status::Holds(Proof::Deadlock(bounded.clean));
@@ -225,38 +256,16 @@ impl<'n> Checking<'n> {
         Ok(())
     }
 
-    /// Enumerates the states of one property after the other, except those
-    /// that are `refuted`: of these it is known that they can be violated.
+    /// Searches through all states.
     fn enumerate(
         &mut self,
-        cores: &[Cone],
-        refuted: &mut [bool],
+        enumeration: &mut Enumeration<'_>,
         meter: &mut Meter,
     ) -> Result<(), Why> {
-        for core in cores {
-            let alone = Classes::alone(core.netlist.size());
-            let mut cutter = Cutter::new(&core.netlist, &alone);
-            let constraints: Vec<usize> = (0..core.netlist.constraints.len()).collect();
-            for (at, &place) in core.properties.iter().enumerate() {
-                if self.status[place] != Status::Open || refuted[place] {
-                    continue;
-                }
-                let cone = cutter.cut(&[at], &constraints);
-                meter.spend(4 * cone.netlist.size())?;
-                // Each has its share, so that a hard one leaves something.
-                let given = (meter.left / self.open().len().max(1) as u64).max(TURN / 4);
-                let mut share = meter.clone();
-                share.left = given;
-                let reached = reach(&cone.netlist, &mut share);
-                meter.left = meter.left.saturating_sub(given - share.left);
-                match reached {
-                    Ok(Reached::All(states)) => {
-                        self.status[place] = Status::Holds(Proof::Reachability { states });
-                    }
-                    Ok(Reached::Violation(_)) => refuted[place] = true,
-                    Err(Why::Steps | Why::Memory) => {}
-                    Err(why) => return Err(why),
-                }
+        let is_open = |at: usize| self.status[at] == Status::Open;
+        for (place, reached) in enumeration.advance(is_open, meter)? {
+            if let (Reached::All(states), Status::Open) = (reached, self.status[place]) {
+                self.status[place] = Status::Holds(Proof::Reachability { states });
             }
         }
         Ok(())
@@ -271,26 +280,17 @@ impl<'n> Checking<'n> {
                 why,
             },
         };
-        if let Some(trace) = self.trace {
-            let seen = replay(self.netlist, &trace);
-            verdict = match seen.violation {
-                Some((scan, properties)) if scan + 1 == trace.scans() => {
-                    for (status, property) in status.iter_mut().zip(&self.netlist.properties) {
-                        if properties.contains(&property.name) {
-                            *status = Status::Violated;
-                        }
-                    }
-                    Verdict::Different(Difference {
-                        trace,
-                        properties,
-                        clean: self.clean,
-                    })
+        if let Some((trace, properties)) = self.trace {
+            for (status, property) in status.iter_mut().zip(&self.netlist.properties) {
+                if properties.contains(&property.name) {
+                    *status = Status::Violated;
                 }
-                _ => Verdict::Unknown {
-                    clean: self.clean,
-                    why: Why::Unconfirmed,
-                },
-            };
+            }
+            verdict = Verdict::Different(Difference {
+                trace,
+                properties,
+                clean: self.clean,
+            });
         }
         let names = self.netlist.properties.iter();
         Report {

@@ -109,7 +109,7 @@ fn refine(
                     values: graph.values(|leaf| solver.value(leaf) == Some(true)),
                     state: &state,
                 };
-                seen.split(classes, first, &frame, random);
+                seen.split(classes, first, &frame, random, meter)?;
                 has_failed = true;
                 if classes.0[node].node() != node && frame.of(classes.0[node]) == by {
                     classes.detach(node);
@@ -139,10 +139,6 @@ impl Counterexample<'_> {
     /// Splits the classes by what happens in the last scan; in all lanes but
     /// one some inputs are others than those found, where constraints allow it.
     ///
-    /// The scan then satisfies the classes, so these must also hold in any scan
-    /// that follows it, and a few are tried: a counterexample that was hard to
-    /// find splits all that it can.
-    ///
     /// The scan now satisfies the classes, so they must also hold in any that
     /// follows it, and a few of these are tried as well: a counterexample that
     /// is seldom found splits all that it can.
@@ -152,7 +148,8 @@ impl Counterexample<'_> {
         before: Option<&Frame>,
         frame: &Frame,
         random: &mut Random,
-    ) {
+        meter: &mut Meter,
+    ) -> Result<(), Why> {
         let mut lanes = Lanes::new(self.netlist, || [0; WORDS]);
         let latches = self.netlist.latches.iter();
         match before {
@@ -175,6 +172,7 @@ impl Counterexample<'_> {
         let mut inputs: Vec<Word> = frame.inputs.iter().map(|&it| self.spread(it)).collect();
         let mut allowed = ALL;
         for scan in 0..=FURTHER {
+            meter.spend(2 * self.netlist.size())?;
             for (input, word) in self.netlist.inputs.iter().zip(&mut inputs) {
                 let mut others: Word = std::array::from_fn(|at| random.rare(at as u32 + 1));
                 if scan == 0 {
@@ -188,6 +186,7 @@ impl Counterexample<'_> {
             classes.refine(&lanes, &allowed);
             lanes.advance();
         }
+        Ok(())
     }
 
     fn spread(&self, signal: Signal) -> Word {

@@ -26,18 +26,18 @@ const BATCH: usize = 16;
 /// Batches that show nothing new before the runs end, in a large netlist. Where
 /// scans cost less there are more, up to `MOST_QUIET`.
 const QUIET: usize = 4;
-const MOST_QUIET: usize = 12;
+const MOST_QUIET: usize = 6;
 /// Gates evaluated that are always worth their while.
 const WORTH: usize = 200_000;
 /// Every so many scans the lanes of one word start anew.
 const RESTART: usize = 24;
-/// Most scans; a run is kept from its start, to tell its inputs.
+/// Most scans; a run is kept from its start, to tell its inputs. Fewer where the
+/// memory for so many would be more than that of the gates that are allowed.
 const MOST: usize = 1024;
 
 /// What the random runs showed.
 pub(crate) struct Explored {
-    /// Signals that were equal in every scan of every run.
-    pub classes: Classes,
+    prints: Prints,
     /// The shortest run found under which a property is violated.
     pub trace: Option<Trace>,
     /// What each latch held, scan by scan; lanes that do not count hold 0.
@@ -55,16 +55,16 @@ pub(crate) fn explore(netlist: &Netlist, meter: &mut Meter) -> Result<Explored, 
     let mut inputs = vec![NONE; netlist.inputs.len()];
     let mut manners = vec![Manner::new(); inputs.len()];
     manners.iter_mut().for_each(|it| it.draw(&ALL, &mut random));
-    let mut prints = Prints::new(netlist.size());
     let mut explored = Explored {
-        classes: Classes::default(),
+        prints: Prints::default(),
         trace: None,
         latches: vec![Vec::new(); netlist.latches.len()],
         allowed: Vec::new(),
     };
     let (mut kinds, mut quiet) = (0, 0);
     let enough = (WORTH / netlist.size() / BATCH).clamp(QUIET, MOST_QUIET);
-    for scan in 0..MOST {
+    let kept = netlist.inputs.len() + netlist.latches.len();
+    for scan in 0..(meter.gates / kept.max(1)).clamp(1, MOST) {
         meter.spend(netlist.size() * 2)?;
         for (word, manner) in inputs.iter_mut().zip(&manners) {
             *word = manner.next(&mut random);
@@ -79,7 +79,7 @@ pub(crate) fn explore(netlist: &Netlist, meter: &mut Meter) -> Result<Explored, 
             allowed = solved(netlist, &mut lanes, &inputs);
         }
         runs.inputs.push(inputs.clone());
-        prints.add(&lanes, &allowed);
+        explored.prints.add(0, &lanes, &allowed);
         for (latch, seen) in netlist.latches.iter().zip(&mut explored.latches) {
             seen.push(zip(&lanes.value(latch.signal), &allowed, |a, b| a & b));
         }
@@ -106,7 +106,7 @@ pub(crate) fn explore(netlist: &Netlist, meter: &mut Meter) -> Result<Explored, 
                 .for_each(|it| it.draw(&ended, &mut random));
         }
         if scan % BATCH == BATCH - 1 {
-            let now = prints.kinds();
+            let now = explored.prints.kinds();
             quiet = if now > kinds { 0 } else { quiet + 1 };
             kinds = now;
             if quiet == enough {
@@ -114,8 +114,30 @@ pub(crate) fn explore(netlist: &Netlist, meter: &mut Meter) -> Result<Explored, 
             }
         }
     }
-    explored.classes = prints.classes();
     Ok(explored)
+}
+
+impl Explored {
+    /// Signals that were equal in every scan of every run.
+    pub fn classes(&self) -> Classes {
+        self.prints.classes()
+    }
+
+    /// Takes in the gates that were added to `netlist` since, over latches alone:
+    /// what the latches did in the runs tells what these would have done.
+    pub fn take_in(&mut self, netlist: &Netlist, meter: &mut Meter) -> Result<(), Why> {
+        let known = self.prints.prints.len();
+        let mut lanes = Lanes::new(netlist, || NONE);
+        for (scan, allowed) in self.allowed.iter().enumerate() {
+            meter.spend(2 * netlist.size())?;
+            for (latch, seen) in netlist.latches.iter().zip(&self.latches) {
+                lanes.set(latch.signal, seen[scan]);
+            }
+            lanes.solve();
+            self.prints.add(known, &lanes, allowed);
+        }
+        Ok(())
+    }
 }
 
 /// How an input behaves in each lane until the lane starts anew.
@@ -214,29 +236,24 @@ fn supports(netlist: &Netlist) -> Vec<Vec<usize>> {
 
 /// What each node did, in one number: two nodes with the same number were most
 /// likely equal in every scan of every lane, or always each other's complement.
+#[derive(Default)]
 struct Prints {
     prints: Vec<u64>,
     /// What each node was in the first lane that counted: nodes that were 1
     /// there are looked at through their complement.
-    complement: Option<Vec<bool>>,
+    complement: Vec<bool>,
 }
 
 impl Prints {
-    fn new(nodes: usize) -> Self {
-        Self {
-            prints: vec![0; nodes],
-            complement: None,
-        }
-    }
-
-    fn add(&mut self, lanes: &Lanes<'_>, allowed: &Word) {
+    /// Adds what the nodes from this one on did in a scan.
+    fn add(&mut self, from: usize, lanes: &Lanes<'_>, allowed: &Word) {
+        self.prints.resize(lanes.len(), 0);
         let Some(lane) = first(allowed) else { return };
-        let nodes = 0..self.prints.len();
-        let complement = self
-            .complement
-            .get_or_insert_with(|| nodes.map(|node| bit(lanes.node(node), lane)).collect());
-        for (node, print) in self.prints.iter_mut().enumerate() {
-            let flip = 0_u64.wrapping_sub(complement[node].into());
+        let unseen = self.complement.len()..self.prints.len();
+        let seen = unseen.map(|node| bit(lanes.node(node), lane));
+        self.complement.extend(seen);
+        for (node, print) in self.prints.iter_mut().enumerate().skip(from) {
+            let flip = 0_u64.wrapping_sub(self.complement[node].into());
             let seen = zip(lanes.node(node), allowed, |bits, allowed| {
                 (bits ^ flip) & allowed
             });
@@ -258,7 +275,7 @@ impl Prints {
 
     fn classes(&self) -> Classes {
         let mut leaders: FxHashMap<u64, usize> = FxHashMap::default();
-        let flipped = |node: usize| self.complement.as_ref().is_some_and(|it| it[node]);
+        let flipped = |node: usize| self.complement.get(node) == Some(&true);
         let leader = self.prints.iter().enumerate().map(|(node, &print)| {
             let leader = *leaders.entry(print).or_insert(node);
             Signal::new(leader, flipped(leader) != flipped(node))

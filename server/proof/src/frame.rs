@@ -71,7 +71,6 @@ impl<'n> Framing<'n> {
     ) -> Result<Frame, Why> {
         let netlist = self.netlist;
         meter.fits(graph.len() + netlist.size())?;
-        meter.spend(4 * netlist.size())?;
         let mut frame = Frame {
             reduced: vec![Signal::FALSE; netlist.size()],
             raw: vec![Signal::FALSE; netlist.size()],
@@ -87,6 +86,7 @@ impl<'n> Framing<'n> {
             }
         }
         for node in 1..netlist.size() {
+            meter.walk(node, 4)?;
             let leader = classes.0[node];
             let is_merged = leader.node() != node;
             let by = at(&frame.reduced, leader);

@@ -64,6 +64,11 @@ impl<'n> Lanes<'n> {
         }
     }
 
+    /// Number of nodes.
+    pub fn len(&self) -> usize {
+        self.values.len()
+    }
+
     /// The value of a signal in this scan.
     #[inline]
     pub fn value(&self, signal: Signal) -> Word {

@@ -40,7 +40,8 @@
 //!   from gates or from the expressions and functions of `logic`.
 //!   [`Netlist::place`] copies gates, [`compare`] puts two netlists side by
 //!   side, [`Netlist::cone`] cuts out what some properties depend on.
-//! * [`Trace`] and [`replay`]: a sequence of inputs and what it does.
+//! * [`Trace`], [`replay`] and [`violation`]: a sequence of inputs and what it
+//!   does.
 //! * [`check`]: all engines, one [`Report`]. [`Limits`] bound its work and
 //!   memory; there is no clock, so the answer is the same on every machine.
 //! * [`seek`]: a shortest trace for each property by itself.
@@ -56,6 +57,7 @@ mod components;
 mod cone;
 mod correspondence;
 mod diagrams;
+mod enumeration;
 mod explore;
 mod export;
 mod express;
@@ -71,6 +73,7 @@ mod place;
 mod plain;
 mod random;
 mod reach;
+mod relation;
 mod report;
 mod runs;
 mod seek;
@@ -93,7 +96,7 @@ pub use seek::{Search, Sought, seek};
 pub use signal::Signal;
 pub use simplify::simplified;
 pub use supposed::Supposed;
-pub use trace::{Replay, Trace, replay};
+pub use trace::{Replay, Trace, replay, violation};
 
 #[cfg(test)]
 mod tests;

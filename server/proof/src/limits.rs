@@ -55,6 +55,9 @@ pub enum Why {
     Unconfirmed,
 }
 
+/// Nodes of a netlist that are walked over between two looks at the limits.
+pub(crate) const STRIDE: usize = 1 << 12;
+
 /// What is left of the limits for one engine in one turn.
 #[derive(Clone, Debug)]
 pub(crate) struct Meter {
@@ -86,6 +89,15 @@ impl Meter {
             Err(Why::Steps)
         } else {
             Ok(())
+        }
+    }
+
+    /// Uses up the steps of a walk over the nodes of a netlist, many nodes at a
+    /// time, so that a walk over millions of them can be stopped as well.
+    pub fn walk(&mut self, node: usize, steps_a_node: usize) -> Result<(), Why> {
+        match node.is_multiple_of(STRIDE) {
+            true => self.spend(STRIDE * steps_a_node),
+            false => Ok(()),
         }
     }
 

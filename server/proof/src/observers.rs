@@ -92,11 +92,12 @@ pub(crate) fn observe(
 }
 
 fn members<'e>(netlist: &Netlist, explored: &'e Explored) -> Vec<Member<'e>> {
+    let classes = explored.classes();
     let latches = netlist.latches.iter().zip(&explored.latches);
     latches
         .filter(|(latch, _)| {
             let node = latch.signal.node();
-            explored.classes.0[node].node() == node
+            classes.0[node].node() == node
         })
         .map(|(latch, seen)| {
             let ones: u64 = count(seen);

@@ -1,3 +1,6 @@
+use std::convert::Infallible;
+
+use crate::limits::STRIDE;
 use crate::{Gates, Netlist, Signal};
 
 /// Where the signals of a netlist came to be when its gates were placed in
@@ -13,12 +16,15 @@ impl Placed {
 }
 
 /// Copies the gates of a netlist into something else; see [`Netlist::place`].
-pub(crate) fn copy(
+///
+/// `look` is asked now and then whether to go on, and sees what there is so far.
+pub(crate) fn copy<G: Gates, E>(
     netlist: &Netlist,
     inputs: &[Signal],
     latches: &[Signal],
-    into: &mut impl Gates,
-) -> Placed {
+    into: &mut G,
+    mut look: impl FnMut(&G) -> Result<(), E>,
+) -> Result<Placed, E> {
     let mut placed = Placed(vec![Signal::FALSE; netlist.size()]);
     let leaves = netlist.inputs.iter().map(|input| input.signal);
     for (leaf, &signal) in leaves.zip(inputs) {
@@ -29,11 +35,14 @@ pub(crate) fn copy(
         placed.0[leaf.node()] = signal;
     }
     for node in 0..netlist.size() {
+        if node.is_multiple_of(STRIDE) {
+            look(into)?;
+        }
         if let Some([a, b]) = netlist.graph.gate(node) {
             placed.0[node] = into.and(placed.of(a), placed.of(b));
         }
     }
-    placed
+    Ok(placed)
 }
 
 impl Netlist {
@@ -46,7 +55,21 @@ impl Netlist {
     /// what is returned. Placed several times in a row, each fed by the next
     /// states of the one before, it is a run of scans within one.
     pub fn place(&mut self, other: &Netlist, inputs: &[Signal], latches: &[Signal]) -> Placed {
-        copy(other, inputs, latches, self)
+        let go_on = |_: &Self| Ok::<(), Infallible>(());
+        let Ok(placed) = self.try_place(other, inputs, latches, go_on);
+        placed
+    }
+
+    /// The same, stopped by an error of `look`, which is called again and again
+    /// meanwhile and sees this netlist grow.
+    pub fn try_place<E>(
+        &mut self,
+        other: &Netlist,
+        inputs: &[Signal],
+        latches: &[Signal],
+        look: impl FnMut(&Self) -> Result<(), E>,
+    ) -> Result<Placed, E> {
+        copy(other, inputs, latches, self, look)
     }
 
     /// Takes `other` in as a whole: its inputs are shared by name, its latches

@@ -3,223 +3,162 @@
 //! LICS 1990).
 //!
 //! From the initial states on, all next states are computed at once, until no
-//! new ones come. What a scan does is kept in parts, one for each latch, and a
-//! variable is quantified away as soon as no further part mentions it (Burch,
-//! Clarke, Long: Representing circuits more efficiently in symbolic model
-//! checking, DAC 1991). Each latch has two variables next to each other, for
-//! before and after the scan, in the order in which a walk down from the
-//! properties meets the latches.
+//! new ones come.
 
 use biodivine_lib_bdd::Bdd;
 
+use crate::Netlist;
 use crate::diagrams::Diagrams;
 use crate::limits::{Meter, Why};
-use crate::netlist::Leaf;
-use crate::{Netlist, Signal};
+use crate::relation::{Order, System, Values};
 
-/// What the states that can be reached say about the properties.
+/// What the states that can be reached say about a property.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Reached {
-    /// None of them violates a property under any input; how many there are.
+    /// None of them violates it under any input; how many there are.
     All(Option<u128>),
     /// Some state that can be reached in so many scans, and in no fewer, does
     /// in the scan after them.
     Violation(usize),
 }
 
-/// Computes the states that can be reached, until one violates a property or no
-/// new ones come.
-pub(crate) fn reach(netlist: &Netlist, meter: &mut Meter) -> Result<Reached, Why> {
-    let order = Order::of(netlist);
-    let diagrams = Diagrams::new(order.variables)?;
-    let system = System::new(netlist, &order, &diagrams, meter)?;
-    let mut reached = system.initial.clone();
-    let mut front = reached.clone();
-    let mut scans = 0;
-    loop {
-        if !diagrams.and(&front, &system.bad, meter)?.is_false() {
-            return Ok(Reached::Violation(scans));
-        }
-        let mut image = diagrams.and(&front, &system.allowed, meter)?;
-        for part in &system.parts {
-            image = diagrams.and_exists(&image, &part.relation, &part.done, meter)?;
-        }
-        let next = match system.parts.is_empty() {
-            true => break,
-            false => diagrams.one_before(&image)?,
-        };
-        front = diagrams.and_not(&next, &reached, meter)?;
-        if front.is_false() {
-            break;
-        }
-        reached = diagrams.or(&reached, &front, meter)?;
-        scans += 1;
+/// A search through the states, which can be interrupted and resumed.
+pub(crate) struct Reach {
+    netlist: Netlist,
+    order: Order,
+    diagrams: Diagrams,
+    stage: Stage,
+}
+
+enum Stage {
+    /// The gates are made diagrams of.
+    Gates(Values),
+    /// The states are searched.
+    States(Search),
+}
+
+struct Search {
+    system: System,
+    reached: Bdd,
+    /// The states that were new in the last scan.
+    front: Bdd,
+    /// Those of the next scan, as far as so many parts of the system say.
+    image: Option<(Bdd, usize)>,
+    scans: usize,
+    /// For each property, the scan in which it can be violated first.
+    violated: Vec<Option<usize>>,
+}
+
+impl Reach {
+    /// A search for violations of the properties of `netlist`.
+    pub fn new(netlist: Netlist) -> Result<Self, Why> {
+        let order = Order::of(&netlist);
+        let diagrams = Diagrams::new(order.variables)?;
+        Ok(Self {
+            stage: Stage::Gates(Values::new(&netlist, &diagrams)),
+            netlist,
+            order,
+            diagrams,
+        })
     }
-    Ok(Reached::All(diagrams.ways(&reached, &order.is_latch)))
-}
 
-/// Which variable of the diagrams stands for what.
-struct Order {
-    /// The variable of each leaf of the netlist; for a latch, before the scan.
-    /// The one after the scan comes next to it. `None` where nothing that is
-    /// asked about depends on the leaf.
-    of_node: Vec<Option<usize>>,
-    /// The latches in the order of their variables, by their places.
-    latches: Vec<usize>,
-    /// Whether a variable is a latch before the scan.
-    is_latch: Vec<bool>,
-    variables: usize,
-}
-
-impl Order {
-    fn of(netlist: &Netlist) -> Self {
-        let mut order = Self {
-            of_node: vec![None; netlist.size()],
-            latches: Vec::new(),
-            is_latch: Vec::new(),
-            variables: 0,
+    /// Computes the states that can be reached until no new ones come, or until
+    /// every property is known to be violated: what is known of each then. After
+    /// an error the same call goes on where it stopped.
+    pub fn advance(&mut self, meter: &mut Meter) -> Result<Vec<Reached>, Why> {
+        let diagrams = &self.diagrams;
+        let search = match &mut self.stage {
+            Stage::States(search) => search,
+            Stage::Gates(values) => {
+                values.complete(&self.netlist, &self.order, diagrams, meter)?;
+                let system = System::new(&self.netlist, &self.order, diagrams, values, meter)?;
+                self.stage = Stage::States(Search {
+                    reached: system.initial.clone(),
+                    front: system.initial.clone(),
+                    image: None,
+                    scans: 0,
+                    violated: vec![None; system.bad.len()],
+                    system,
+                });
+                return self.advance(meter);
+            }
         };
-        let latches = netlist.latches.iter().map(|it| it.signal);
-        let constraints = netlist.constraints.iter().copied();
-        let properties = netlist.properties.iter().map(|it| it.signal);
-        let roots = properties.chain(constraints).chain(latches);
-        let mut open: Vec<usize> = roots.map(Signal::node).collect();
-        open.reverse();
-        let mut seen = vec![false; netlist.size()];
-        while let Some(node) = open.pop() {
-            if std::mem::replace(&mut seen[node], true) {
-                continue;
+        while !search.advance(diagrams, meter)? {}
+        let states = diagrams.ways(&search.reached, &self.order.is_latch);
+        let of =
+            |violated: &Option<usize>| violated.map_or(Reached::All(states), Reached::Violation);
+        Ok(search.violated.iter().map(of).collect())
+    }
+
+    /// How many nodes are kept for the next call.
+    pub fn nodes(&self) -> usize {
+        match &self.stage {
+            Stage::Gates(values) => values.nodes(),
+            Stage::States(search) => {
+                let image = search.image.as_ref().map_or(0, |(image, _)| image.size());
+                search.system.nodes() + search.reached.size() + search.front.size() + image
             }
-            if let Some([a, b]) = netlist.graph.gate(node) {
-                open.extend([b.node(), a.node()]);
+        }
+    }
+}
+
+impl Search {
+    /// Goes on for one scan. Whether that was the last.
+    fn advance(&mut self, diagrams: &Diagrams, meter: &mut Meter) -> Result<bool, Why> {
+        let system = &self.system;
+        let (mut image, from) = match self.image.take() {
+            Some(begun) => begun,
+            None => {
+                let properties = system.bad.iter().zip(&mut self.violated);
+                for (bad, violated) in properties.filter(|(_, violated)| violated.is_none()) {
+                    let is_violated = !diagrams.and(&self.front, bad, meter)?.is_false();
+                    *violated = is_violated.then_some(self.scans);
+                }
+                if self.violated.iter().all(Option::is_some) {
+                    return Ok(true);
+                }
+                (diagrams.and(&self.front, &system.allowed, meter)?, 0)
             }
-            let Some(leaf) = netlist.leaf(node) else {
-                continue;
-            };
-            order.of_node[node] = Some(order.variables);
-            match leaf {
-                Leaf::Input(_) => order.is_latch.push(false),
-                Leaf::Latch(at) => {
-                    order.latches.push(at);
-                    order.is_latch.extend([true, false]);
-                    open.push(netlist.latches[at].next.node());
+        };
+        for (at, part) in system.parts.iter().enumerate().skip(from) {
+            match diagrams.and_exists(&image, &part.relation, &part.done, meter) {
+                Ok(further) => image = further,
+                Err(why) => {
+                    self.image = Some((image, at));
+                    return Err(why);
                 }
             }
-            order.variables = order.is_latch.len();
         }
-        order
+        if system.parts.is_empty() {
+            return Ok(true);
+        }
+        match self.joined(&image, diagrams, meter) {
+            Ok(None) => Ok(true),
+            Ok(Some([reached, front])) => {
+                (self.reached, self.front) = (reached, front);
+                self.scans += 1;
+                Ok(false)
+            }
+            Err(why) => {
+                self.image = Some((image, self.system.parts.len()));
+                Err(why)
+            }
+        }
     }
 
-    /// The variable of a latch, before the scan.
-    fn variable(&self, latch: Signal) -> usize {
-        self.of_node[latch.node()].unwrap_or_default()
-    }
-}
-
-/// What one latch takes.
-struct Part {
-    /// That its variable after the scan is what it takes.
-    relation: Bdd,
-    /// Whether a variable is mentioned by no later part.
-    done: Vec<bool>,
-}
-
-/// A netlist as diagrams.
-struct System {
-    initial: Bdd,
-    /// Where the constraints hold.
-    allowed: Bdd,
-    /// Where they do and a property is violated.
-    bad: Bdd,
-    parts: Vec<Part>,
-}
-
-impl System {
-    fn new(
-        netlist: &Netlist,
-        order: &Order,
+    /// All states, and those of the next scan that are new; none if none is new.
+    fn joined(
+        &self,
+        image: &Bdd,
         diagrams: &Diagrams,
         meter: &mut Meter,
-    ) -> Result<Self, Why> {
-        let gates = Values::new(netlist, order, diagrams, meter)?;
-        let mut system = Self {
-            initial: diagrams.constant(true),
-            allowed: diagrams.constant(true),
-            bad: diagrams.constant(false),
-            parts: Vec::new(),
-        };
-        for &constraint in &netlist.constraints {
-            system.allowed = diagrams.and(&system.allowed, &gates.of(constraint), meter)?;
+    ) -> Result<Option<[Bdd; 2]>, Why> {
+        let next = diagrams.one_before(image)?;
+        let front = diagrams.and_not(&next, &self.reached, meter)?;
+        if front.is_false() {
+            return Ok(None);
         }
-        for property in &netlist.properties {
-            system.bad = diagrams.or(&system.bad, &gates.of(property.signal), meter)?;
-        }
-        system.bad = diagrams.and(&system.bad, &system.allowed, meter)?;
-        // The part that mentions a variable last; those that none mentions are
-        // done with the first.
-        let mut last = vec![0; order.variables];
-        for (place, &at) in order.latches.iter().enumerate() {
-            let latch = &netlist.latches[at];
-            let variable = order.variable(latch.signal);
-            let before = diagrams.variable(variable);
-            if let Some(value) = latch.initial.value() {
-                let holds = if value { before } else { before.not() };
-                system.initial = diagrams.and(&system.initial, &holds, meter)?;
-            }
-            let next = gates.of(latch.next);
-            for mentioned in next.support_set() {
-                last[mentioned.to_index()] = place;
-            }
-            let after = diagrams.variable(variable + 1);
-            let relation = diagrams.equal(&after, &next, meter)?;
-            let done = vec![false; order.variables];
-            system.parts.push(Part { relation, done });
-        }
-        for (variable, &place) in last.iter().enumerate() {
-            let is_after = variable > 0 && order.is_latch[variable - 1];
-            if !is_after && let Some(part) = system.parts.get_mut(place) {
-                part.done[variable] = true;
-            }
-        }
-        Ok(system)
-    }
-}
-
-/// The diagram of every node.
-struct Values(Vec<Bdd>);
-
-impl Values {
-    fn new(
-        netlist: &Netlist,
-        order: &Order,
-        diagrams: &Diagrams,
-        meter: &mut Meter,
-    ) -> Result<Self, Why> {
-        let mut values = Self(vec![diagrams.constant(false)]);
-        let mut nodes = 0;
-        for node in 1..netlist.size() {
-            let value = match netlist.graph.gate(node) {
-                Some([a, b]) => diagrams.and(&values.of(a), &values.of(b), meter)?,
-                None => order.of_node[node].map_or_else(
-                    || diagrams.constant(false),
-                    |variable| diagrams.variable(variable),
-                ),
-            };
-            nodes += value.size();
-            if nodes > meter.nodes {
-                return Err(Why::Memory);
-            }
-            values.0.push(value);
-        }
-        Ok(values)
-    }
-
-    fn of(&self, signal: Signal) -> Bdd {
-        let own = &self.0[signal.node()];
-        if signal.is_complement() {
-            own.not()
-        } else {
-            own.clone()
-        }
+        let reached = diagrams.or(&self.reached, &front, meter)?;
+        Ok(Some([reached, front]))
     }
 }

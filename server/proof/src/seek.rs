@@ -13,7 +13,7 @@ use crate::cone::{Cone, Cutter};
 use crate::frame::Framing;
 use crate::induction::Induction;
 use crate::limits::{Meter, Why};
-use crate::reach::{Reached, reach};
+use crate::reach::{Reach, Reached};
 use crate::simplify::simplified;
 use crate::trace::violated_at_end;
 use crate::{Gates, Limits, Netlist, Signal, Trace};
@@ -129,15 +129,14 @@ impl<'s> Seeking<'s> {
         let mut bounded = Bounded::new(self.netlist);
         let mut induction = Induction::new(&framing, &alone);
         let mut steps = TURN;
-        // Of how many that are open it is known that some can happen.
-        let mut alive = 0;
+        let mut states = States::default();
         while !self.open().is_empty() {
             let before = self.left;
             self.turn(steps, |it, meter| it.advance(&mut bounded, meter))?;
             self.turn(steps, |it, meter| {
                 it.induce(&mut induction, bounded.clean, meter)
             })?;
-            self.turn(steps, |it, meter| it.enumerate(&mut alive, meter))?;
+            self.turn(steps, |it, meter| it.enumerate(&mut states, meter))?;
             if self.left == before {
                 return Err(match bounded.clean >= self.limits.scans {
                     true => Why::Scans,
@@ -199,7 +198,9 @@ impl<'s> Seeking<'s> {
         for at in new {
             meter.spend(MOST_WORK.min(self.netlist.size() * trace.scans() * 8))?;
             let bad = self.netlist.properties[at].signal;
-            self.found[at] = Sought::Found(simplified(self.netlist, trace, &[bad], MOST_WORK));
+            let cancel = &self.limits.cancel;
+            let simple = simplified(self.netlist, trace, &[bad], MOST_WORK, cancel);
+            self.found[at] = Sought::Found(simple);
         }
         Ok(())
     }
@@ -223,28 +224,40 @@ impl<'s> Seeking<'s> {
         Ok(())
     }
 
-    /// Enumerates the states, to see whether anything that is open can happen.
-    fn enumerate(&mut self, alive: &mut usize, meter: &mut Meter) -> Result<(), Why> {
+    /// Enumerates the states, to see what of that which is open never happens.
+    fn enumerate(&mut self, states: &mut States, meter: &mut Meter) -> Result<(), Why> {
         let open = self.open();
-        if open.is_empty() || open.len() == *alive {
+        if open.is_empty() || states.is_over {
             return Ok(());
         }
-        let mut asked = self.netlist.clone();
-        let properties = std::mem::take(&mut asked.properties);
-        let open_now: Vec<Signal> = open.iter().map(|&at| properties[at].signal).collect();
-        let any = asked.any(&open_now);
-        asked.never("any", any);
-        meter.spend(4 * asked.size())?;
-        match reach(&asked.cone(&[0]).netlist, meter)? {
-            Reached::All(_) => {
-                for at in open {
-                    self.found[at] = Sought::Never;
-                }
+        let search = match &mut states.search {
+            Some(search) => search,
+            None => {
+                let cone = self.netlist.cone(&open);
+                meter.spend(4 * cone.netlist.size())?;
+                states.search.insert((Reach::new(cone.netlist)?, open))
             }
-            Reached::Violation(_) => *alive = open.len(),
+        };
+        let (reach, asked) = search;
+        let reached = reach.advance(meter);
+        // What is too large once is so in every turn.
+        states.is_over = matches!(reached, Ok(_) | Err(Why::Memory));
+        for (&at, reached) in asked.iter().zip(reached?) {
+            if let (Reached::All(_), Sought::Open(_)) = (reached, &self.found[at]) {
+                self.found[at] = Sought::Never;
+            }
         }
         Ok(())
     }
+}
+
+/// A search through the states of a part.
+#[derive(Default)]
+struct States {
+    /// The search, and the properties that it is about.
+    search: Option<(Reach, Vec<usize>)>,
+    /// Whether it has come to its end, or never will.
+    is_over: bool,
 }
 
 impl Netlist {

@@ -1,11 +1,19 @@
-use crate::{Netlist, Signal, Trace, replay};
+use logic::{Cancel, Stop};
+
+use crate::{Netlist, Signal, Trace, violation};
 
 /// The trace with no change of an input that is not needed: what is `bad` in its
 /// last scan still is there, and nothing forbids it.
 ///
 /// It costs a replay for each change; of a long trace only as many are tried as
-/// are worth `most` nodes evaluated.
-pub fn simplified(netlist: &Netlist, trace: &Trace, bad: &[Signal], most: usize) -> Trace {
+/// are worth `most` nodes evaluated, and none after a cancel.
+pub fn simplified(
+    netlist: &Netlist,
+    trace: &Trace,
+    bad: &[Signal],
+    most: usize,
+    cancel: &Cancel,
+) -> Trace {
     let mut judge = netlist.clone();
     judge.properties.clear();
     for signal in bad {
@@ -13,8 +21,12 @@ pub fn simplified(netlist: &Netlist, trace: &Trace, bad: &[Signal], most: usize)
     }
     let last = trace.scans().saturating_sub(1);
     let is_good = |tried: &Trace| {
-        let replayed = replay(&judge, tried);
-        let violated = replayed.violation.filter(|(at, _)| *at == last);
+        let look = || match cancel.is_cancelled() {
+            true => Err(Stop::Cancelled),
+            false => Ok(()),
+        };
+        let seen = violation(&judge, tried, look).ok().flatten();
+        let violated = seen.filter(|(at, _)| *at == last);
         violated.is_some_and(|(_, names)| names.iter().any(|name| &**name == "violated"))
     };
     let mut best = trace.clone();
@@ -27,7 +39,7 @@ pub fn simplified(netlist: &Netlist, trace: &Trace, bad: &[Signal], most: usize)
         for scan in 0..best.inputs.len() {
             for input in 0..best.inputs[scan].len() {
                 let before = scan.checked_sub(1).is_some_and(|at| best.inputs[at][input]);
-                if best.inputs[scan][input] != before && left > 0 {
+                if best.inputs[scan][input] != before && left > 0 && !cancel.is_cancelled() {
                     left -= 1;
                     let mut tried = best.clone();
                     tried.inputs[scan][input] = before;

@@ -5,7 +5,7 @@ use logic::Cancel;
 
 use crate::Signal;
 use crate::graph::Graph;
-use crate::limits::{Meter, Why};
+use crate::limits::{Meter, STRIDE, Why};
 
 /// What the search counts for, in steps: a literal propagated, with the clauses
 /// that are looked at for it, and a conflict, with what is learnt from it.
@@ -155,13 +155,25 @@ impl Solver {
                 }
             }
             self.open.pop();
+            if made == STRIDE {
+                self.made(made, meter)?;
+                made = 0;
+            }
         }
-        meter.spend(10 * made)?;
-        if self.sat.num_clauses() as usize > meter.clauses {
-            return Err(Why::Memory);
-        }
+        self.made(made, meter)?;
         let variable = self.variables[signal.node()].unwrap_or(batsat::Var::UNDEF);
         Ok(Lit::new(variable, !signal.is_complement()))
+    }
+
+    /// So many gates were made known.
+    fn made(&mut self, gates: usize, meter: &mut Meter) -> Result<(), Why> {
+        let within = meter.spend(10 * gates);
+        if within.is_ok() && self.sat.num_clauses() as usize <= meter.clauses {
+            return Ok(());
+        }
+        // What is left open is begun anew when somebody asks again.
+        self.open.clear();
+        within.and(Err(Why::Memory))
     }
 
     fn add(&mut self, literals: &[Lit]) {

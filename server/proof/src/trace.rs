@@ -1,3 +1,5 @@
+use std::convert::Infallible;
+
 use logic::Name;
 
 use crate::Netlist;
@@ -39,18 +41,60 @@ pub struct Replay {
 /// Runs the netlist on a trace. The one judge of traces: what an engine finds
 /// is told only after it was seen here.
 pub fn replay(netlist: &Netlist, trace: &Trace) -> Replay {
-    let spread = |value: bool| [0_u64.wrapping_sub(value.into()); WORDS];
     let mut replay = Replay::default();
-    let mut initial = netlist
+    let Ok(()) = run(netlist, trace, |scan, lanes| {
+        let value = |signal| bit(&lanes.value(signal), 0);
+        let outputs = netlist.outputs.iter();
+        let outputs = outputs.map(|output| value(output.signal));
+        replay.outputs.push(outputs.collect());
+        let latches = netlist.latches.iter().map(|latch| value(latch.signal));
+        replay.latches.push(latches.collect());
+        if replay.forbidden.is_none() && !bit(&lanes.allowed(), 0) {
+            replay.forbidden = Some(scan);
+        }
+        if replay.forbidden.is_none() && replay.violation.is_none() {
+            let violated = violated(netlist, lanes);
+            replay.violation = (!violated.is_empty()).then_some((scan, violated));
+        }
+        Ok::<_, Infallible>(true)
+    });
+    replay
+}
+
+/// The first scan of a trace in which a property is violated, and the properties
+/// violated there; `None` if there is none before a scan that the constraints
+/// forbid. `look` is asked before every scan whether to go on.
+pub fn violation<E>(
+    netlist: &Netlist,
+    trace: &Trace,
+    mut look: impl FnMut() -> Result<(), E>,
+) -> Result<Option<(usize, Vec<Name>)>, E> {
+    let mut found = None;
+    run(netlist, trace, |scan, lanes| {
+        look()?;
+        let is_allowed = bit(&lanes.allowed(), 0);
+        let violated = violated(netlist, lanes);
+        if is_allowed && !violated.is_empty() {
+            found = Some((scan, violated));
+        }
+        Ok(is_allowed && found.is_none())
+    })?;
+    Ok(found)
+}
+
+/// Shows each scan of a trace when it is computed, as long as more are wanted.
+fn run<E>(
+    netlist: &Netlist,
+    trace: &Trace,
+    mut show: impl FnMut(usize, &Lanes<'_>) -> Result<bool, E>,
+) -> Result<(), E> {
+    let spread = |value: bool| [0_u64.wrapping_sub(value.into()); WORDS];
+    let values = trace.initial.iter().copied();
+    let latches = netlist
         .latches
         .iter()
-        .zip(
-            trace
-                .initial
-                .iter()
-                .copied()
-                .chain(std::iter::repeat(false)),
-        )
+        .zip(values.chain(std::iter::repeat(false)));
+    let mut initial = latches
         .filter(|(latch, _)| latch.initial.value().is_none())
         .map(|(_, value)| spread(value));
     let mut lanes = Lanes::new(netlist, || initial.next().unwrap_or_default());
@@ -60,30 +104,21 @@ pub fn replay(netlist: &Netlist, trace: &Trace) -> Replay {
             lanes.set(input.signal, spread(value));
         }
         lanes.solve();
-        let value = |signal| bit(&lanes.value(signal), 0);
-        let of = |outputs: &[crate::Output]| -> Vec<bool> {
-            outputs.iter().map(|output| value(output.signal)).collect()
-        };
-        replay.outputs.push(of(&netlist.outputs));
-        let latches = netlist.latches.iter().map(|latch| value(latch.signal));
-        replay.latches.push(latches.collect());
-        if replay.forbidden.is_none() && !bit(&lanes.allowed(), 0) {
-            replay.forbidden = Some(scan);
-        }
-        if replay.forbidden.is_none() && replay.violation.is_none() {
-            let violated: Vec<Name> = netlist
-                .properties
-                .iter()
-                .filter(|property| value(property.signal))
-                .map(|property| property.name.clone())
-                .collect();
-            if !violated.is_empty() {
-                replay.violation = Some((scan, violated));
-            }
+        if !show(scan, &lanes)? {
+            break;
         }
         lanes.advance();
     }
-    replay
+    Ok(())
+}
+
+/// The properties that are violated in a scan.
+fn violated(netlist: &Netlist, lanes: &Lanes<'_>) -> Vec<Name> {
+    let properties = netlist.properties.iter();
+    properties
+        .filter(|property| bit(&lanes.value(property.signal), 0))
+        .map(|property| property.name.clone())
+        .collect()
 }
 
 /// Which properties are violated in the last scan of a trace that the
@@ -123,6 +158,12 @@ mod tests {
         assert_eq!(seen.outputs, ["0", "1", "1", "0", "0"].map(row));
         assert_eq!(seen.latches, ["0", "0", "1", "1", "0"].map(row));
         assert_eq!(seen.forbidden, Some(4));
-        assert_eq!(seen.violation, Some((2, vec!["runs by itself".into()])));
+        let expected = Some((2, vec!["runs by itself".into()]));
+        assert_eq!(seen.violation, expected);
+        assert_eq!(
+            violation(&netlist, &trace, || Ok::<_, ()>(())),
+            Ok(expected)
+        );
+        assert_eq!(violation(&netlist, &trace, || Err("stop")), Err("stop"));
     }
 }

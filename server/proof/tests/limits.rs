@@ -1,39 +1,14 @@
 //! Hard questions end when they are told to, and say why.
 
-use proof::{Gates, Limits, Netlist, Signal, Status, Verdict, Why, check, compare};
+#[path = "judge/multiplier.rs"]
+mod multiplier;
 
-/// A multiplier, its factors exchanged or not: as hard as questions come, for
-/// every engine, with enough bits.
-fn multiplier(bits: usize, is_exchanged: bool) -> Netlist {
-    let mut netlist = Netlist::default();
-    let mut factor = |name: &str| -> Vec<Signal> {
-        (0..bits)
-            .map(|bit| netlist.input(format!("{name}{bit}")))
-            .collect()
-    };
-    let mut factors = [factor("a"), factor("b")];
-    if is_exchanged {
-        factors.reverse();
-    }
-    let mut sum = vec![Signal::FALSE; 2 * bits];
-    for (shift, &bit) in factors[0].iter().enumerate() {
-        let mut carry = Signal::FALSE;
-        for (at, &other) in factors[1].iter().enumerate() {
-            let product = netlist.and(bit, other);
-            let place = &mut sum[shift + at];
-            let half = netlist.xor(*place, product);
-            let carries = [netlist.and(*place, product), netlist.and(half, carry)];
-            *place = netlist.xor(half, carry);
-            carry = netlist.any(&carries);
-        }
-        sum[shift + bits] = carry;
-    }
-    for (at, bit) in sum.into_iter().enumerate() {
-        let latch = netlist.delayed(format!("p{at}"), bit, false);
-        netlist.output(format!("p{at}"), latch);
-    }
-    netlist
-}
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use logic::Cancel;
+use multiplier::multiplier;
+use proof::{Gates, Limits, Netlist, Signal, Status, Verdict, Why, check, compare};
 
 fn hard() -> Netlist {
     compare(&multiplier(24, false), &multiplier(24, true)).netlist
@@ -61,6 +36,41 @@ fn a_cancel_ends_a_proof_that_would_run_for_hours() {
         ),
         "{verdict:?}"
     );
+}
+
+/// What comes of a question when a cancel comes with the look of this number, and
+/// how many looks there are in all.
+fn cancelled_at(question: &Netlist, look: usize) -> (Verdict, usize) {
+    let looks = Arc::new(AtomicUsize::new(0));
+    let counted = looks.clone();
+    let limits = Limits {
+        cancel: Cancel::when(move || counted.fetch_add(1, Ordering::Relaxed) + 1 == look),
+        ..Limits::default()
+    };
+    let verdict = check(question, &limits).verdict;
+    (verdict, looks.load(Ordering::Relaxed))
+}
+
+#[test]
+fn at_whatever_moment_a_cancel_comes_next_to_nothing_is_done_after_it() {
+    let question = compare(&multiplier(5, false), &multiplier(5, true)).netlist;
+    let (verdict, all) = cancelled_at(&question, usize::MAX);
+    assert_eq!(verdict, Verdict::Equivalent);
+    // Each engine has its turn among so many.
+    assert!(all > 1_000, "{all} looks");
+    let moments = std::iter::successors(Some(1), |moment| Some(moment + moment / 8 + 1));
+    for look in moments.take_while(|look| *look <= all) {
+        let (verdict, looks) = cancelled_at(&question, look);
+        let is_cancelled = matches!(
+            verdict,
+            Verdict::Unknown {
+                why: Why::Cancelled,
+                ..
+            }
+        );
+        assert!(is_cancelled, "at look {look} of {all}: {verdict:?}");
+        assert!(looks <= look + 3, "{} looks after {look}", looks - look);
+    }
 }
 
 #[test]

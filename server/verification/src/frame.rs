@@ -11,6 +11,8 @@ use proof::{Gates, Netlist, Placed, Signal};
 use crate::Timing;
 use crate::chart::Evolved;
 use crate::inputs::Source;
+use crate::program::Bounds;
+use crate::refusal::Refusal;
 
 /// The system, step by step.
 pub(crate) struct Frame {
@@ -26,19 +28,24 @@ pub(crate) struct Frame {
 impl Frame {
     /// The system of one scan, in steps of this timing, where a step is followed
     /// through so many scans.
-    pub(crate) fn new(evolved: &Evolved, timing: Timing, scans: usize) -> Self {
+    pub(crate) fn new(
+        evolved: &Evolved,
+        timing: Timing,
+        scans: usize,
+        bounds: &Bounds,
+    ) -> Result<Self, Refusal> {
         match timing {
-            Timing::Scan => Self {
+            Timing::Scan => Ok(Self {
                 netlist: evolved.netlist.clone(),
                 last: None,
                 unstable: evolved.unstable,
                 restless: Signal::FALSE,
-            },
-            Timing::Settled => Self::settled(evolved, scans),
+            }),
+            Timing::Settled => Self::settled(evolved, scans, bounds),
         }
     }
 
-    fn settled(evolved: &Evolved, scans: usize) -> Self {
+    fn settled(evolved: &Evolved, scans: usize, bounds: &Bounds) -> Result<Self, Refusal> {
         let scan = &evolved.netlist;
         let mut netlist = Netlist::default();
         let inputs = scan
@@ -65,19 +72,20 @@ impl Frame {
         let mut run = |netlist: &mut Netlist, now: &[Signal]| {
             let inputs = if first { &inputs } else { &rested };
             first = false;
-            let placed = netlist.place(scan, inputs, now);
+            let look = |netlist: &Netlist| bounds.look(netlist);
+            let placed = netlist.try_place(scan, inputs, now, look)?;
             let next = scan.latches().iter().map(|latch| placed.of(latch.next));
-            (next.collect::<Vec<Signal>>(), placed)
+            Ok((next.collect::<Vec<Signal>>(), placed))
         };
-        let (next, mut last) = run(&mut netlist, &now);
+        let (next, mut last) = run(&mut netlist, &now)?;
         unstable.push(last.of(evolved.unstable));
         now = next;
         for _ in 1..scans {
-            let (next, placed) = run(&mut netlist, &now);
+            let (next, placed) = run(&mut netlist, &now)?;
             unstable.push(placed.of(evolved.unstable));
             (now, last) = (next, placed);
         }
-        let (further, _) = run(&mut netlist, &now);
+        let (further, _) = run(&mut netlist, &now)?;
         let differ = now.iter().zip(&further);
         let differ: Vec<Signal> = differ
             .map(|(one, other)| netlist.xor(*one, *other))
@@ -85,12 +93,12 @@ impl Frame {
         for (latch, next) in latches.iter().zip(&now) {
             netlist.set_next(*latch, *next);
         }
-        Self {
+        Ok(Self {
             unstable: netlist.any(&unstable),
             restless: netlist.any(&differ),
             last: Some(last),
             netlist,
-        }
+        })
     }
 
     /// What a signal of a scan is at the end of a step.

@@ -5,7 +5,7 @@
 use grafcet::Grafcet;
 use grafcet::evolution::{self, Unstable};
 use ladder::{Program, scan};
-use logic::{Atom, Datum, Expr, Name, Relation};
+use logic::{Atom, Cancel, Datum, Expr, Name, Relation};
 use proof::Trace as Signals;
 
 use crate::Timing;
@@ -26,6 +26,8 @@ pub(crate) enum End {
     Unstable(Unstable),
     /// In `settled` timing: something changed in every scan.
     Restless,
+    /// Somebody asked to stop.
+    Cancelled,
 }
 
 /// Both, and what is compared.
@@ -40,6 +42,7 @@ pub(crate) struct Run<'r> {
     read: Vec<Name>,
     timing: Timing,
     before: Vec<(Name, bool)>,
+    cancel: &'r Cancel,
 }
 
 impl<'r> Run<'r> {
@@ -50,6 +53,7 @@ impl<'r> Run<'r> {
         followed: &'r Followed,
         [outputs, watched]: [&'r [Name]; 2],
         timing: Timing,
+        cancel: &'r Cancel,
     ) -> Self {
         let machine = evolution::Machine::new(grafcet);
         let read = machine.free().filter(|name| followed.knows(name)).cloned();
@@ -62,6 +66,7 @@ impl<'r> Run<'r> {
             watched,
             timing,
             before: Vec::new(),
+            cancel,
         }
     }
 
@@ -114,6 +119,9 @@ impl<'r> Run<'r> {
     }
 
     fn scan(&mut self, elapsed_ms: u64) -> Result<(), End> {
+        if self.cancel.is_cancelled() {
+            return Err(End::Cancelled);
+        }
         self.ladder.scan(elapsed_ms);
         for name in &self.read {
             let value = self.ladder.value(&self.followed.resolved(name));

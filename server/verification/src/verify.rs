@@ -72,7 +72,7 @@ pub struct Verification {
     pub deadlock: Option<usize>,
     /// The question as it was asked at last: the system, and as its properties
     /// that the grafcet is unstable, that both never rest, that each output
-    /// differs, and those of the spec.
+    /// differs, and those of the spec. Empty if it is too large to be asked.
     pub question: Netlist,
     /// How many states were counted, where the engine that decided counts them.
     pub states: Option<u128>,
@@ -200,7 +200,10 @@ impl<'v> Verifier<'v> {
 
     fn run(&mut self) -> Result<Verification, Refusal> {
         loop {
-            let system = self.system()?;
+            let system = match self.system() {
+                Err(Refusal::TooLarge) => return Ok(self.too_large()),
+                system => system?,
+            };
             let Some(verdict) = self.compare(&system)? else {
                 continue;
             };
@@ -223,6 +226,28 @@ impl<'v> Verifier<'v> {
                 deadlock,
                 states,
             });
+        }
+    }
+
+    /// What can be said where the system of both does not fit.
+    fn too_large(&self) -> Verification {
+        let unknown = || Verdict::Unknown {
+            bound: 0,
+            why: Reason::Limits(Why::Memory),
+        };
+        let properties = self.spec.never.iter();
+        Verification {
+            timing: self.timing,
+            verdict: unknown(),
+            rules: self.spec.environment.len(),
+            outputs: Vec::new(),
+            missing: Vec::new(),
+            absent: Vec::new(),
+            properties: properties.map(|it| (it.name.clone(), unknown())).collect(),
+            free: Vec::new(),
+            deadlock: None,
+            question: Netlist::default(),
+            states: None,
         }
     }
 
@@ -282,7 +307,8 @@ impl<'v> Verifier<'v> {
             },
             Found::Different(found) => {
                 let is_shortest = found.is_shortest();
-                let simple = simplified(&frame.netlist, &found.trace, &bad, MOST_WORK);
+                let cancel = &self.limits.cancel;
+                let simple = simplified(&frame.netlist, &found.trace, &bad, MOST_WORK, cancel);
                 for signals in [&simple, &found.trace] {
                     let ((trace, end), mut run) = self.replayed(system, signals);
                     let what = match end {
@@ -290,6 +316,7 @@ impl<'v> Verifier<'v> {
                         End::Steps(_) => continue,
                         End::Unstable(unstable) => What::Unstable(unstable),
                         End::Restless => What::Restless,
+                        End::Cancelled => break,
                     };
                     let is_brief =
                         matches!(what, What::Outputs(_)) && run.after_another().is_empty();
@@ -303,16 +330,12 @@ impl<'v> Verifier<'v> {
                 }
                 let is = |name: &str| found.properties.iter().any(|it| &**it == name);
                 let rounds = match (is(UNSTABLE), is(RESTLESS)) {
+                    _ if self.limits.cancel.is_cancelled() => {
+                        return Ok(Some((self.unconfirmed(found.clean), None, None)));
+                    }
                     (true, _) => &mut self.evolutions,
                     (_, true) => &mut self.settling,
-                    _ => {
-                        let bound = found.clean;
-                        let verdict = Verdict::Unknown {
-                            bound,
-                            why: Reason::Unconfirmed,
-                        };
-                        return Ok(Some((verdict, None, None)));
-                    }
+                    _ => return Ok(Some((self.unconfirmed(found.clean), None, None))),
                 };
                 // Not twice: what is followed in vain makes every proof dearer.
                 *rounds += *rounds / 2 + 1;
@@ -355,7 +378,9 @@ impl<'v> Verifier<'v> {
             },
             Found::Different(found) => {
                 let is_shortest = found.is_shortest();
-                let simple = simplified(&system.frame.netlist, &found.trace, &[bad], MOST_WORK);
+                let cancel = &self.limits.cancel;
+                let netlist = &system.frame.netlist;
+                let simple = simplified(netlist, &found.trace, &[bad], MOST_WORK, cancel);
                 for signals in [&simple, &found.trace] {
                     let ((trace, end), mut run) = self.replayed(system, signals);
                     let condition = &self.spec.never[at].condition;
@@ -369,11 +394,19 @@ impl<'v> Verifier<'v> {
                         });
                     }
                 }
-                Verdict::Unknown {
-                    bound: found.clean,
-                    why: Reason::Unconfirmed,
-                }
+                self.unconfirmed(found.clean)
             }
+        }
+    }
+
+    /// What can be said of a trace that was not seen to happen.
+    fn unconfirmed(&self, clean: usize) -> Verdict {
+        Verdict::Unknown {
+            bound: clean,
+            why: match self.limits.cancel.is_cancelled() {
+                true => Reason::Limits(Why::Cancelled),
+                false => Reason::Unconfirmed,
+            },
         }
     }
 
@@ -384,7 +417,8 @@ impl<'v> Verifier<'v> {
     ) -> ((Trace, End), Run<'s>) {
         let grafcet = &self.spec.grafcet;
         let shown = [system.outputs.as_slice(), system.watched.as_slice()];
-        let mut run = Run::new(self.program, grafcet, &self.followed, shown, self.timing);
+        let (timing, cancel) = (self.timing, &self.limits.cancel);
+        let mut run = Run::new(self.program, grafcet, &self.followed, shown, timing, cancel);
         (run.trace(&system.evolved.inputs, signals), run)
     }
 }
@@ -423,7 +457,7 @@ pub(crate) fn system(
         .iter()
         .try_for_each(|it| atoms.look_up_property(it))?;
     let atoms = atoms.known();
-    let mut frame = Frame::new(&evolved, timing, settling);
+    let mut frame = Frame::new(&evolved, timing, settling, bounds)?;
     let differ = differ.into_iter().map(|signal| frame.of(signal)).collect();
     let mut steps = Steps {
         frame: &mut frame,

@@ -4,7 +4,6 @@ use proof::{Gates, Signal};
 
 use super::Pass;
 use super::state::{Latches, State};
-use crate::program::Bounds;
 use crate::refusal::Refusal;
 use crate::value::Value;
 
@@ -16,20 +15,19 @@ impl Pass<'_> {
         state: &mut State,
         latches: &Latches,
         evolutions: usize,
-        bounds: &Bounds,
     ) -> Result<Signal, Refusal> {
         let net = self.net;
         self.sample(0..net.sampled_first, state);
-        self.on_events(state);
+        self.on_events(state)?;
         let situation = state.active.clone();
         // The initial situation is activated by the first scan.
         let before = situation
             .iter()
             .map(|on| self.netlist.and(*on, !latches.first()));
         let before: Vec<Signal> = before.collect();
-        self.settle(state, &situation);
-        self.tell(state, &before);
-        let first = self.evolve(state);
+        self.settle(state, &situation)?;
+        self.tell(state, &before)?;
+        let first = self.evolve(state)?;
         // What changes nothing and clears nothing is stable, though another
         // evolution would see no edges any more.
         let goes_on = match net.sampled_first {
@@ -39,21 +37,15 @@ impl Pass<'_> {
         // Edges are true in the first evolution only.
         self.edges.fill(Signal::FALSE);
         for _ in 1..evolutions {
-            if bounds.cancel.is_cancelled() {
-                return Err(Refusal::Cancelled);
-            }
-            if self.netlist.size() > bounds.gates {
-                return Err(Refusal::TooLarge);
-            }
             let before = state.clone();
-            let changes = self.evolve(state);
+            let changes = self.evolve(state)?;
             self.keep_unless(goes_on, state, &before);
             if changes == Signal::FALSE {
                 break;
             }
         }
         let mut further = state.clone();
-        let changes = self.evolve(&mut further);
+        let changes = self.evolve(&mut further)?;
         self.publish(state);
         Ok(self.netlist.and(goes_on, changes))
     }
@@ -75,10 +67,11 @@ impl Pass<'_> {
 
     /// Clears all transitions that can be, together. Whether the situation is
     /// another then or, with edges, whether any was cleared.
-    fn evolve(&mut self, state: &mut State) -> Signal {
+    fn evolve(&mut self, state: &mut State) -> Result<Signal, Refusal> {
         let net = self.net;
         let mut clears = Vec::with_capacity(net.transitions.len());
         for transition in &net.transitions {
+            self.look()?;
             let Some(from) = &transition.from else {
                 clears.push(Signal::FALSE);
                 continue;
@@ -109,8 +102,8 @@ impl Pass<'_> {
             *active = self.netlist.or(stays, entered);
         }
         let obeyed = state.obeyed.clone();
-        self.settle(state, &before);
-        self.tell(state, &before);
+        self.settle(state, &before)?;
+        self.tell(state, &before)?;
         let mut differ = match self.edges.iter().any(|edge| *edge != Signal::FALSE) {
             true => clears,
             false => Vec::new(),
@@ -121,17 +114,17 @@ impl Pass<'_> {
                 differ.push(self.netlist.xor(*before, *after));
             }
         }
-        self.netlist.any(&differ)
+        Ok(self.netlist.any(&differ))
     }
 
     /// Lets the clocks of steps and the stored actions know that the situation
     /// has changed.
-    fn tell(&mut self, state: &mut State, before: &[Signal]) {
+    fn tell(&mut self, state: &mut State, before: &[Signal]) -> Result<(), Refusal> {
         for (at, before) in before.iter().enumerate() {
             let begins = self.netlist.and(state.active[at], !*before);
             state.fresh[at] = self.netlist.or(state.fresh[at], begins);
         }
-        self.on_change(state, before);
+        self.on_change(state, before)
     }
 
     /// The state where the condition holds, else what it was before.

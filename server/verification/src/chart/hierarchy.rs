@@ -5,6 +5,7 @@ use proof::{Gates, Signal};
 
 use super::Pass;
 use super::state::State;
+use crate::refusal::Refusal;
 
 impl Pass<'_> {
     /// Whether something above it keeps the transition from being cleared: an
@@ -32,36 +33,38 @@ impl Pass<'_> {
 
     /// Settles the situation below its enclosing steps and orders, where
     /// `before` is the one that it grew from.
-    pub(super) fn settle(&mut self, state: &mut State, before: &[Signal]) {
+    pub(super) fn settle(&mut self, state: &mut State, before: &[Signal]) -> Result<(), Refusal> {
         let net = self.net;
         let is_plain = net.steps.iter().all(|step| step.kind == Kind::Plain);
         if is_plain
             && net.parts.iter().all(|part| part.enclosed_by.is_empty())
             && net.orders.is_empty()
         {
-            return;
+            return Ok(());
         }
         let mut opened = before.to_vec();
-        self.open(state, &mut opened);
-        self.close(state);
+        self.open(state, &mut opened)?;
+        self.close(state)?;
         if net.orders.is_empty() {
-            return;
+            return Ok(());
         }
         for _ in 0..=net.parts.len() {
-            self.impose(state);
-            self.open(state, &mut opened);
-            self.close(state);
+            self.impose(state)?;
+            self.open(state, &mut opened)?;
+            self.close(state)?;
         }
+        Ok(())
     }
 
     /// Activates what the enclosing steps activate that were not active in
     /// `opened`, which is brought up to date.
-    fn open(&mut self, state: &mut State, opened: &mut [Signal]) {
+    fn open(&mut self, state: &mut State, opened: &mut [Signal]) -> Result<(), Refusal> {
         let net = self.net;
         let is_enclosing =
             |step: &&grafcet::evolution::Step| matches!(step.kind, Kind::Enclosing(_));
         // Each round opens what lies one level further in.
         for _ in 0..net.steps.iter().filter(is_enclosing).count() {
+            self.look()?;
             for (at, step) in net.steps.iter().enumerate() {
                 let Kind::Enclosing(parts) = &step.kind else {
                     continue;
@@ -74,16 +77,18 @@ impl Pass<'_> {
                 }
             }
         }
+        Ok(())
     }
 
     /// Deactivates what lies in enclosures none of whose enclosing steps is
     /// active.
-    fn close(&mut self, state: &mut State) {
+    fn close(&mut self, state: &mut State) -> Result<(), Refusal> {
         let net = self.net;
         // Each round closes the parts one level further in.
         for _ in 0..=net.parts.len() {
             let mut closed = false;
             for part in net.parts.iter().filter(|part| !part.enclosed_by.is_empty()) {
+                self.look()?;
                 let is_open = self.any_active(&part.enclosed_by, state);
                 for step in &part.owned {
                     let now = self.netlist.and(state.active[*step], is_open);
@@ -96,6 +101,7 @@ impl Pass<'_> {
             }
         }
         self.derive(state);
+        Ok(())
     }
 
     /// Brings the variables of macro-steps up to date.
@@ -110,7 +116,7 @@ impl Pass<'_> {
 
     /// Lets every part obey the first of the orders for it, and gives those the
     /// situation that begin to obey.
-    fn impose(&mut self, state: &mut State) {
+    fn impose(&mut self, state: &mut State) -> Result<(), Refusal> {
         let net = self.net;
         let mut taken = vec![Signal::FALSE; net.parts.len()];
         let mut obeyed = Vec::with_capacity(net.orders.len());
@@ -126,6 +132,7 @@ impl Pass<'_> {
             .map(|(now, before)| self.netlist.and(*now, !*before))
             .collect();
         for part in 0..net.parts.len() {
+            self.look()?;
             let orders = net.orders.iter().zip(&begins);
             for (order, begins) in orders.filter(|(order, _)| order.part == part) {
                 self.obey(order, *begins, state);
@@ -133,6 +140,7 @@ impl Pass<'_> {
         }
         state.obeyed = obeyed;
         self.derive(state);
+        Ok(())
     }
 
     fn obey(&mut self, order: &Order, begins: Signal, state: &mut State) {

@@ -89,9 +89,10 @@ pub fn follow(
             elapsed: BTreeMap::new(),
             numbers: &numbers,
             unknowns: FIRST_UNKNOWN,
+            bounds,
         };
         let (mut state, latches) = pass.begin(&initial, &domains);
-        let unstable = pass.scan(&mut state, &latches, evolutions, bounds)?;
+        let unstable = pass.scan(&mut state, &latches, evolutions)?;
         pass.end(&state, &latches);
         if !learn(&mut domains, &state, &net) {
             return Ok(Evolved {
@@ -159,6 +160,14 @@ struct Pass<'g> {
     elapsed: BTreeMap<(usize, u64), Signal>,
     numbers: &'g BTreeMap<Name, Vec<Datum>>,
     unknowns: usize,
+    bounds: &'g Bounds,
+}
+
+impl Pass<'_> {
+    /// Stops where there is no more time or room.
+    fn look(&self) -> Result<(), Refusal> {
+        self.bounds.look(&self.netlist)
+    }
 }
 
 impl Evolved {

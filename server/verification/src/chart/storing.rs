@@ -6,36 +6,45 @@ use proof::{Gates, Signal};
 use super::Pass;
 use super::reading::operand;
 use super::state::State;
+use crate::refusal::Refusal;
 use crate::value::{Value, applied};
 
 impl Pass<'_> {
     /// Performs what the events of this scan cause, in the steps that were
     /// active when they came.
-    pub(super) fn on_events(&mut self, state: &mut State) {
+    pub(super) fn on_events(&mut self, state: &mut State) -> Result<(), Refusal> {
         let active = state.active.clone();
         self.perform(state, |pass, action| match action.on {
             On::Event(edge) => pass.netlist.and(active[action.step], pass.edges[edge]),
             On::Activation | On::Deactivation => Signal::FALSE,
-        });
+        })
     }
 
     /// Performs what a change of the situation causes: what ends gives way to
     /// what begins.
-    pub(super) fn on_change(&mut self, state: &mut State, before: &[Signal]) {
+    pub(super) fn on_change(
+        &mut self,
+        state: &mut State,
+        before: &[Signal],
+    ) -> Result<(), Refusal> {
         let active = state.active.clone();
         self.perform(state, |pass, action| match action.on {
             On::Deactivation => pass.netlist.and(before[action.step], !active[action.step]),
             On::Activation | On::Event(_) => Signal::FALSE,
-        });
+        })?;
         self.perform(state, |pass, action| match action.on {
             On::Activation => pass.netlist.and(active[action.step], !before[action.step]),
             On::Deactivation | On::Event(_) => Signal::FALSE,
-        });
+        })
     }
 
     /// Performs the actions that are due. All conditions are looked at before
     /// anything is written.
-    fn perform(&mut self, state: &mut State, due: impl Fn(&mut Self, &Stored) -> Signal) {
+    fn perform(
+        &mut self,
+        state: &mut State,
+        due: impl Fn(&mut Self, &Stored) -> Signal,
+    ) -> Result<(), Refusal> {
         let net = self.net;
         let mut all = Vec::new();
         for action in &net.stored {
@@ -46,6 +55,7 @@ impl Pass<'_> {
             }
         }
         for (action, due) in all {
+            self.look()?;
             let value = match &action.effect {
                 Effect::Set => Value::constant(true.into()),
                 Effect::Reset => Value::constant(false.into()),
@@ -53,6 +63,7 @@ impl Pass<'_> {
             };
             self.write(action.variable, &value, due, state);
         }
+        Ok(())
     }
 
     fn term(&mut self, term: &Term, state: &State) -> Value {

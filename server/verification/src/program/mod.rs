@@ -65,7 +65,7 @@ pub struct Bounds {
     pub gates: usize,
     /// Most nodes, and cases of numbers that are tried, of all passes together.
     pub work: usize,
-    /// Obeyed between two rungs.
+    /// Obeyed between two elements of a rung, and between two transitions.
     pub cancel: Cancel,
 }
 
@@ -75,6 +75,19 @@ impl Default for Bounds {
             gates: 4_000_000,
             work: 100_000_000,
             cancel: Cancel::default(),
+        }
+    }
+}
+
+impl Bounds {
+    /// Stops if somebody asked to, or if more has been made than is allowed.
+    pub(crate) fn look(&self, netlist: &Netlist) -> Result<(), Refusal> {
+        if self.cancel.is_cancelled() {
+            Err(Refusal::Cancelled)
+        } else if netlist.size() > self.gates {
+            Err(Refusal::TooLarge)
+        } else {
+            Ok(())
         }
     }
 }
@@ -117,7 +130,7 @@ pub fn follow(
             ..
         } = pass;
         memories.end(&mut store);
-        store.end();
+        store.end(bounds)?;
         work += store.net.size() + store.tried;
         if work > bounds.work {
             return Err(Refusal::TooLarge);
@@ -248,12 +261,7 @@ impl Pass<'_> {
             HashMap::from([(GuardSet::NONE, (Signal::TRUE, Signal::FALSE))]);
         let mut open: HashMap<(usize, usize), Power> = HashMap::new();
         for visit in &order.visits {
-            if self.bounds.cancel.is_cancelled() {
-                return Err(Refusal::Cancelled);
-            }
-            if self.store.net.size() > self.bounds.gates {
-                return Err(Refusal::TooLarge);
-            }
+            self.bounds.look(&self.store.net)?;
             let routine = &self.program.routines[visit.routine];
             let past = (solved.as_slice(), steered.as_slice());
             let (when, is_off) = self.guards(visit.guards, routine, order, past, &mut guarded)?;
@@ -270,6 +278,7 @@ impl Pass<'_> {
                 is_off,
             };
             for at in visit.elements.clone().map(NodeIndex::new) {
+                self.bounds.look(&self.store.net)?;
                 let (store, memories) = (&mut self.store, &mut self.memories);
                 flow::solve(network, at, solving, &mut power, store, memories)?;
             }

@@ -7,6 +7,7 @@ use ladder::scan::{Kind, Names, bit_of_word, is_plain};
 use logic::{Datum, Expr, Name, Relation};
 use proof::{Gates, Netlist, Signal};
 
+use super::Bounds;
 use super::knowledge::{Domain, Knowledge};
 use crate::inputs::{Inputs, Source};
 use crate::refusal::Refusal;
@@ -14,6 +15,9 @@ use crate::value::{MOST_VALUES, Value, applied, chosen, gathered};
 
 /// Most combinations of values that one term or index is tried with.
 const MOST_CASES: usize = 4_096;
+
+/// So many nodes are walked over in the time in which one is made.
+const WALKED: usize = 16;
 
 /// Why something could not be computed for each value: an operand, or the
 /// whole, is a number that is not followed.
@@ -560,7 +564,7 @@ impl<'k> Store<'k> {
     }
 
     /// Ends the scan: what variables hold is what the next one begins with.
-    pub(super) fn end(&mut self) {
+    pub(super) fn end(&mut self, bounds: &Bounds) -> Result<(), Refusal> {
         for Kept {
             variable,
             value,
@@ -582,26 +586,32 @@ impl<'k> Store<'k> {
         for name in written {
             match self.now.get(&name).cloned() {
                 Some(Value::Unknown(_)) => self.knowledge.loses(&name),
-                Some(Value::Known(cases)) => self.note_values(&name, &cases),
+                Some(Value::Known(cases)) => self.note_values(&name, &cases, bounds)?,
                 None => {}
             }
         }
+        Ok(())
     }
 
     /// Notes the values that a variable can have at the end of a scan, for each
     /// that it can have at its beginning: a step register goes on from one step
     /// to the next, and only as far as its rungs say.
-    fn note_values(&mut self, name: &Name, cases: &[(Datum, Signal)]) {
+    fn note_values(
+        &mut self,
+        name: &Name,
+        cases: &[(Datum, Signal)],
+        bounds: &Bounds,
+    ) -> Result<(), Refusal> {
         let domain = match self.knowledge.written.get(name) {
             Some(Domain::Values(values)) => values.clone(),
-            _ => return,
+            _ => return Ok(()),
         };
         let is_new = |value: &Datum| domain.iter().all(|known| known.key() != value.key());
         let new = cases.iter().filter(|(value, _)| is_new(value));
         let mut new: Vec<(Datum, Signal)> = new.copied().collect();
         let is_bit = |value: &Datum| matches!(value, Datum::Bool(_));
         if !new.iter().all(|(value, _)| is_bit(value)) && domain.len() > 1 {
-            self.keep_possible(name, &mut new);
+            self.keep_possible(name, &mut new, bounds)?;
         }
         if !new.is_empty() {
             self.knowledge.grows(name);
@@ -609,15 +619,23 @@ impl<'k> Store<'k> {
         for (value, _) in new {
             self.knowledge.holds(name, value);
         }
+        Ok(())
     }
 
     /// Keeps the cases that are not plainly impossible for every value that the
     /// variable can have when the scan begins.
-    fn keep_possible(&self, name: &Name, cases: &mut Vec<(Datum, Signal)>) {
+    fn keep_possible(
+        &mut self,
+        name: &Name,
+        cases: &mut Vec<(Datum, Signal)>,
+        bounds: &Bounds,
+    ) -> Result<(), Refusal> {
         let own = self.kept.iter().filter(|it| it.variable == *name);
         let own: Vec<Signal> = own.map(|it| it.latch).collect();
         let mut is_possible = vec![false; cases.len()];
         for chosen in &own {
+            bounds.look(&self.net)?;
+            self.tried += self.net.size() / WALKED;
             let leaves = own.iter().map(|latch| (*latch, latch == chosen));
             let known = self.net.suppose(leaves);
             for ((_, when), possible) in cases.iter().zip(&mut is_possible) {
@@ -626,6 +644,7 @@ impl<'k> Store<'k> {
         }
         let mut possible = is_possible.into_iter();
         cases.retain(|_| possible.next().unwrap_or(true));
+        Ok(())
     }
 
     /// What everything holds now.

@@ -87,6 +87,7 @@ pub fn sights(
         pairs: &pairs,
         rungs: program.rungs().count() as u64,
         left: seeing.share.steps,
+        cancel: &limits.cancel,
     };
     // What is never seen in a calm plant may be seen in another.
     let mut search = |asked: Vec<Ask>, shares: u64, seeing: &mut Seeing| {

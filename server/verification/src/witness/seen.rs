@@ -5,7 +5,7 @@ use std::sync::Arc;
 use grafcet::Grafcet;
 use ladder::Program;
 use ladder::scan::Machine;
-use logic::Name;
+use logic::{Cancel, Name};
 use proof::Trace as Signals;
 use recovery::successions::Witness;
 
@@ -25,6 +25,7 @@ pub(super) struct Confirming<'c> {
     pub pairs: &'c Pairs,
     pub rungs: u64,
     pub left: u64,
+    pub cancel: &'c Cancel,
 }
 
 impl Confirming<'_> {
@@ -45,7 +46,14 @@ impl Confirming<'_> {
         variables.dedup();
         let grafcet = Grafcet::default();
         let shown = [&[][..], &variables[..]];
-        let mut run = Run::new(self.program, &grafcet, self.followed, shown, Timing::Scan);
+        let mut run = Run::new(
+            self.program,
+            &grafcet,
+            self.followed,
+            shown,
+            Timing::Scan,
+            self.cancel,
+        );
         let (trace, _) = run.trace(&watch.inputs, signals);
         let on = trace.steps.iter().map(|step| {
             let is_on = |name: &&Name| {

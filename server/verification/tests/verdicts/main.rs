@@ -1,5 +1,6 @@
 //! Verdicts about ladders and their specs.
 
+mod limits;
 mod neutralization;
 mod product;
 mod real;
