@@ -11,7 +11,7 @@ use crate::client_like;
 const LADDER: &str = "fixtures/neutralization/neutralization.ladder";
 
 /// What is offered at the first `what` of an open document.
-fn offered(client: &mut Client, name: &str, what: &str) -> Vec<CodeAction> {
+pub fn offered(client: &mut Client, name: &str, what: &str) -> Vec<CodeAction> {
     let text = client.text(name).to_owned();
     let at = text.find(what).expect("the place");
     let marked = end_to_end::lsp::Marked {

@@ -23,6 +23,7 @@ mod progress;
 mod raw;
 mod rename;
 mod scenarios;
+mod search;
 mod selection;
 mod settings;
 mod signature_help;

@@ -21,6 +21,7 @@ for name, call in pairs({
   spec = 'spec',
   ladder = 'ladder',
   conditions = 'conditions',
+  search = 'search',
   verify = 'verify',
   simulate = 'simulate',
   scan = 'scan',

@@ -16,7 +16,7 @@ import {
 } from "vscode";
 import type { LanguageClient } from "vscode-languageclient/node";
 import { scenarioLanguage } from "./ladder-file";
-import { type Conversion, execute, type Spec, type Text } from "./protocol";
+import { type Conversion, execute, type Searched, type Spec, type Text } from "./protocol";
 import { type Server, showBeside, showPage } from "./server";
 import type { Verdicts } from "./verdicts";
 import { conditionsOf, pageCommand, pageOf, rungsOf } from "./virtual-documents";
@@ -44,6 +44,7 @@ export function registerCommands(
     "gradus.file.openSpec": onLadder(openSpec),
     "gradus.file.ladderText": onLadder((_, ladder) => showBeside(rungsOf(ladder), true)),
     "gradus.file.conditions": onLadder((_, ladder) => showBeside(conditionsOf(ladder), true)),
+    "gradus.file.search": onLadder(search),
     "gradus.file.verify": onLadder(verify),
     "gradus.file.simulate": () => onScenario(server, "gradus.simulate"),
     "gradus.file.showScan": () => onScenario(server, "gradus.showScan"),
@@ -73,6 +74,11 @@ async function convert(client: LanguageClient, command: string, ladder: Uri): Pr
   const answer = await execute<Conversion>(client, command, { uri: client.code2ProtocolConverter.asUri(ladder) });
   await showBeside(client.protocol2CodeConverter.asUri(answer.uri), false);
   window.setStatusBarMessage(`Gradus: ${answer.changed ? "" : "nothing to change: "}${answer.summary}`, 10_000);
+}
+
+async function search(client: LanguageClient, ladder: Uri): Promise<void> {
+  const answer = await execute<Searched>(client, "gradus.search", { uri: client.code2ProtocolConverter.asUri(ladder) });
+  window.setStatusBarMessage(`Gradus: ${answer.summary}`, 10_000);
 }
 
 /** Through the editor's own command, so that what it answers is shown where all answers are. */

@@ -54,6 +54,12 @@ export interface Simulated extends Text {
   readonly passed: boolean;
 }
 
+/** What `gradus.search` answers. */
+export interface Searched {
+  readonly uri: string;
+  readonly summary: string;
+}
+
 /** What `gradus.verify` answers. */
 export interface Verified extends Text {
   /** Where the server shows it, kept up to date. */

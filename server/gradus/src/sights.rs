@@ -17,17 +17,17 @@ use crate::report::printable;
 /// two where it is hard, and no time to speak of where it is not.
 pub const EFFORT: u64 = 200;
 
-/// Lets the suggestions of `analysis` gain what is seen in plants that obey these
-/// rules. Gives what there is to say about the search.
-pub fn see(
+/// The analysis with what is seen in plants that obey these rules, and what there
+/// is to say about the search.
+pub fn seeing(
     ladder: &Ladder,
-    analysis: &Analysis,
+    analysis: Analysis,
     environment: &[EnvironmentRule],
     effort: u64,
     io: &Io,
-) -> Option<String> {
+) -> (Analysis, Option<String>) {
     if effort == 0 {
-        return None;
+        return (analysis, None);
     }
     let limits = Limits {
         steps: effort.saturating_mul(1_000_000),
@@ -36,26 +36,26 @@ pub fn see(
     };
     let found = {
         let _progress = program::progress("Searching", ladder);
-        sights(analysis, environment, &limits)
+        sights(&analysis, environment, &limits)
     };
     match found {
         Ok(sights) => {
-            let rules = sights.rules;
-            let is_whole = sights.is_whole;
-            analysis.see(sights);
+            let rules = sights.environment.len();
             let under = (rules > 0).then(|| {
                 let rules = numbered(rules, "environment rule");
                 format!("seen in plants that obey {rules}")
             });
-            let some = (!is_whole)
-                .then(|| "not all sequences were searched; --effort N searches more".to_owned());
+            let some = "not all sequences were searched; --effort N searches more";
+            let some = (!sights.is_whole).then(|| some.to_owned());
             let notes: Vec<String> = under.into_iter().chain(some).collect();
-            (!notes.is_empty()).then(|| notes.join("; "))
+            let note = (!notes.is_empty()).then(|| notes.join("; "));
+            (analysis.seeing(sights), note)
         }
-        Err(refusal) => Some(format!(
-            "no sequences were searched: {}",
-            printable(&refusal.to_string())
-        )),
+        Err(refusal) => {
+            let reason = printable(&refusal.to_string());
+            let note = format!("no sequences were searched: {reason}");
+            (analysis, Some(note))
+        }
     }
 }
 

@@ -5,6 +5,7 @@ use ::ladder::{Edition, Format, Program, Routine, Rung, reread};
 use logic::{Budget, Function, Name};
 use petgraph::graph::NodeIndex;
 use recovery::conditions::{Place, Walk, powers};
+use recovery::successions::Sights;
 use recovery::{Analysis, analyse, analyse_after};
 use source::Diagnostic;
 
@@ -17,7 +18,7 @@ const HINTS: usize = 100;
 
 /// A ladder that somebody looks at: its text, what was read from it and what
 /// was recovered.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Ladder {
     /// The text, as the file or the editor has it.
     pub text: Arc<str>,
@@ -51,6 +52,14 @@ impl Ladder {
             },
             text,
             edition,
+        }
+    }
+
+    /// The same with what a search through the sequences of inputs has seen.
+    pub fn seeing(&self, sights: Sights) -> Self {
+        Self {
+            analysis: self.analysis.seeing(sights),
+            ..self.clone()
         }
     }
 

@@ -205,10 +205,15 @@ pub(crate) fn why(succession: &Succession, ladder: &Ladder, budget: &Budget) -> 
         }
     };
     let condition = succession.condition.as_ref();
-    match condition.and_then(|it| legible(it, &ladder.analysis.conditions, budget)) {
+    let condition = condition.and_then(|it| legible(it, &ladder.analysis.conditions, budget));
+    let mut words = match condition {
         Some(condition) => format!("{rests} Condition: {condition}"),
         None => rests,
+    };
+    if let Some(witness) = &succession.witness {
+        words += &format!("\nSeen after: {}", witness.in_words());
     }
+    words
 }
 
 #[cfg(test)]

@@ -17,7 +17,7 @@ use crate::successions::{Comparisons, Sights, Succession, ranked, with_sights};
 ///
 /// What stands between states is worked out when somebody first asks for it:
 /// the findings about a ladder that is being typed need its conditions only.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Analysis {
     /// The ladder.
     pub program: Arc<Program>,
@@ -27,7 +27,7 @@ pub struct Analysis {
     pub registers: Vec<Register>,
     recovered: OnceLock<Arc<Recovered>>,
     /// What somebody saw happen, and the suggestions with it.
-    seen: OnceLock<(Sights, Vec<Succession>)>,
+    seen: Option<Arc<(Sights, Vec<Succession>)>>,
     /// What was known before a change.
     earlier: Earlier,
     findings: OnceLock<Arc<Findings>>,
@@ -117,7 +117,7 @@ fn analysed(
         conditions,
         registers,
         recovered: OnceLock::new(),
-        seen: OnceLock::new(),
+        seen: None,
         findings: OnceLock::new(),
         earlier,
         budget: budget.clone(),
@@ -153,32 +153,32 @@ impl Analysis {
     }
 
     /// Which state may follow which, best first; with what was
-    /// [seen](Self::see), once somebody has told it.
+    /// [seen](Self::seeing), if somebody has told.
     pub fn successions(&self) -> &[Succession] {
-        match self.seen.get() {
+        match self.seen.as_deref() {
             Some((_, successions)) => successions,
             None => &self.recovered().successions,
         }
     }
 
-    /// Takes down what a search through the sequences of inputs has seen. The
-    /// first who tells counts.
-    pub fn see(&self, sights: Sights) {
-        self.seen.get_or_init(|| {
-            let recovered = self.recovered();
-            let successions = with_sights(
-                &recovered.successions,
-                &sights,
-                &recovered.states,
-                &self.budget,
-            );
-            (sights, successions)
-        });
+    /// The same with what a search through the sequences of inputs has seen.
+    pub fn seeing(&self, sights: Sights) -> Self {
+        let recovered = self.recovered();
+        let successions = with_sights(
+            &recovered.successions,
+            &sights,
+            &recovered.states,
+            &self.budget,
+        );
+        Self {
+            seen: Some(Arc::new((sights, successions))),
+            ..self.clone()
+        }
     }
 
     /// What was seen, if somebody has told.
     pub fn sights(&self) -> Option<&Sights> {
-        self.seen.get().map(|(sights, _)| sights)
+        self.seen.as_deref().map(|(sights, _)| sights)
     }
 
     /// The groups of dependent rungs that hold states.

@@ -125,6 +125,14 @@ local subcommands = {
       ask('gradus.conditions', { uri = ladder() }, beside.show_text)
     end,
   },
+  search = {
+    does = 'search for sequences of inputs that show which state follows which',
+    run = function()
+      ask('gradus.search', { uri = ladder() }, function(found)
+        tell(found.summary)
+      end)
+    end,
+  },
   verify = {
     does = 'find out whether the spec does what the ladder does',
     run = function()

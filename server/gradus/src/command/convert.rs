@@ -162,24 +162,28 @@ pub fn run(args: &Args, io: &mut Io) -> std::io::Result<Status> {
     let Some(analysis) = program::analyse(&ladder, &budget) else {
         return Ok(Status::Interrupted);
     };
-    let mut conversion = Conversion::begin(&analysis, file, &budget);
     // Whoever decides by evidence should have all there is.
     let takes_witnessed = args.accept == Some(Wanted::Witnessed);
-    if args.interactive || takes_witnessed {
-        let environment = conversion.environment();
+    let analysis = if args.interactive || takes_witnessed {
+        let environment = grafcet::read(&file.text).spec.environment;
         let usual = if takes_witnessed {
             THOROUGH
         } else {
             sights::EFFORT
         };
         let effort = args.effort.unwrap_or(usual);
-        if let Some(note) = sights::see(&ladder, &analysis, environment, effort, io) {
+        let (seeing, note) = sights::seeing(&ladder, analysis, &environment, effort, io);
+        if let Some(note) = note {
             io.aside(&format!("{}: {note}\n", printable(&ladder.name())))?;
         }
-        if io.cancel().is_cancelled() {
-            return Ok(Status::Interrupted);
-        }
+        seeing
+    } else {
+        analysis
+    };
+    if io.cancel().is_cancelled() {
+        return Ok(Status::Interrupted);
     }
+    let mut conversion = Conversion::begin(&analysis, file, &budget);
     if let Err(reason) = decide(args, &analysis, &mut conversion) {
         io.complain(&reason);
         return Ok(Status::Usage);

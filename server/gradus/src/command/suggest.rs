@@ -128,9 +128,9 @@ pub fn run(args: &Args, io: &mut Io) -> std::io::Result<Status> {
     let Some(analysis) = program::analyse(&ladder, &budget) else {
         return Ok(Status::Interrupted);
     };
-    let note = match args.method {
-        Method::Ranked => sights::see(&ladder, &analysis, &environment, args.effort, io),
-        Method::Possible | Method::Cubes => None,
+    let (analysis, note) = match args.method {
+        Method::Ranked => sights::seeing(&ladder, analysis, &environment, args.effort, io),
+        Method::Possible | Method::Cubes => (analysis, None),
     };
     let paint = io.answer_paint();
     let answer = {

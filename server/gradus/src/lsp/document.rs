@@ -119,6 +119,21 @@ impl Document {
         }
     }
 
+    /// The same document, of whose ladder more is known.
+    pub fn holding(&self, ladder: Arc<Ladder>) -> Self {
+        Self {
+            uri: self.uri.clone(),
+            key: self.key.clone(),
+            version: self.version,
+            rope: self.rope.clone(),
+            language_id: self.language_id.clone(),
+            before: Mutex::default(),
+            contents: OnceLock::from(Contents::Ladder(ladder)),
+            findings: self.findings.clone(),
+            outdated: self.outdated.clone(),
+        }
+    }
+
     /// The last state of it of which everything is known.
     fn last_ladder(&self) -> Option<Arc<Ladder>> {
         // Before what it is: that may become known in between.

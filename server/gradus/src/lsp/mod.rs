@@ -40,6 +40,7 @@ mod publish;
 mod query;
 mod requests;
 mod runs;
+mod searching;
 mod server;
 mod settings;
 mod shown;

@@ -40,6 +40,9 @@ pub enum Work {
     /// A spec of that name is verified. The flag is raised by who does not want
     /// to wait for it.
     Proof(String, Cancel),
+    /// Sequences of inputs are searched for a ladder of that name. The flag is
+    /// raised by who does not want to wait for them.
+    Sequences(String, Cancel),
 }
 
 impl Work {
@@ -49,6 +52,7 @@ impl Work {
             Self::Search(_) => "Reading the names in all files".to_owned(),
             Self::Check(_) => "Checking all files".to_owned(),
             Self::Proof(spec, _) => format!("Verifying {spec}"),
+            Self::Sequences(ladder, _) => format!("Searching sequences of {ladder}"),
         }
     }
 }

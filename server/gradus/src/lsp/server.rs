@@ -23,6 +23,7 @@ use super::progress::{self, Shown, Work};
 use super::proving::{self, Turns};
 use super::query::{self, Query, about};
 use super::requests::command::Command;
+use super::searching;
 use super::shown::Changes;
 use super::teller::Tellers;
 use super::transport::Output;
@@ -110,7 +111,9 @@ impl Server {
                 });
                 self.shared.tellers.stop(&key);
             }
-            Some(Work::Search(stopped) | Work::Proof(_, stopped)) => stopped.cancel(),
+            Some(Work::Search(stopped) | Work::Proof(_, stopped) | Work::Sequences(_, stopped)) => {
+                stopped.cancel()
+            }
             Some(Work::Check(stopped)) => {
                 self.shared.checked.give_up();
                 stopped.cancel();
@@ -377,6 +380,7 @@ impl LanguageServer for Server {
                 telling::choose(&self.shared, None);
                 Ok(None)
             }
+            Command::Search(uri) => searching::asked(&self.shared, &uri).await.map(Some),
             Command::Verify(uri) => {
                 let what = format!("{} belongs to no ladder with a spec", uri.as_str());
                 let found = proving::asked(&self.shared, uri).await?;

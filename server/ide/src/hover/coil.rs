@@ -116,6 +116,11 @@ pub(super) fn neighbours(
         {
             words[0] += &format!(" on {condition}");
         }
+        if let Some(witness) = &succession.witness
+            && witness.scans() <= MOST_SCANS
+        {
+            words.push(format!("seen after: {}", witness.in_words()));
+        }
         match decided.standing(&succession.from, &succession.to) {
             Standing::Open => {}
             Standing::Accepted => words.push("accepted".to_owned()),
@@ -143,6 +148,9 @@ pub(super) fn value_summary(state: &Name, ladder: &Ladder) -> Option<String> {
         None => "value of a step register".to_owned(),
     })
 }
+
+/// A sequence of more scans than this is not shown in a hover.
+const MOST_SCANS: usize = 6;
 
 /// Neighbours that are named on each side.
 const MOST_NEIGHBOURS: usize = 8;

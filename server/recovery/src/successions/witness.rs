@@ -7,6 +7,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
+use grafcet::EnvironmentRule;
 use logic::{Budget, Function, Name};
 use scenario::{Passing, Scenario, Step};
 
@@ -104,8 +105,8 @@ pub struct Sights {
     pub together: BTreeSet<(Name, Name, Name)>,
     /// Handovers that never happen, neither at once nor in turn.
     pub never: BTreeSet<(Name, Name)>,
-    /// How many environment rules the plant obeyed.
-    pub rules: usize,
+    /// The rules that the plant obeyed.
+    pub environment: Vec<EnvironmentRule>,
     /// Whether all that was looked for was found, or shown never to happen.
     pub is_whole: bool,
 }

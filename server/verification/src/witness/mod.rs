@@ -56,7 +56,7 @@ pub fn sights(
     let pairs = Pairs::of(analysis);
     let mut seeing = Seeing {
         sights: Sights {
-            rules: environment.len(),
+            environment: environment.to_vec(),
             is_whole: pairs.are_all,
             ..Sights::default()
         },

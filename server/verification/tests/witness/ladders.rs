@@ -82,6 +82,6 @@ fn what_the_limits_do_not_allow_stays_as_it_is() {
     };
     let found = sights(&analysis, &[], &limits).expect("a translation");
     assert!(!found.is_whole && found.pairs.is_empty());
-    analysis.see(found);
-    assert_eq!(told(analysis.successions().iter()), before);
+    let seeing = analysis.seeing(found);
+    assert_eq!(told(seeing.successions().iter()), before);
 }

@@ -37,8 +37,7 @@ pub fn seen(ladder: &str, environment: &[EnvironmentRule]) -> Analysis {
     let analysis = analyse(&Arc::clone(&program), &Budget::default());
     let sights = sights(&analysis, environment, &Limits::default()).expect("a translation");
     assert!(sights.is_whole);
-    analysis.see(sights);
-    analysis
+    analysis.seeing(sights)
 }
 
 /// `v1 -> v2  handover, and, in 3 scans`, a line for each.

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeSet;
 
-use grafcet::{Decision, EnvironmentRule, Spec, Verdict};
+use grafcet::{Decision, Spec, Verdict};
 use logic::{Budget, Name};
 use recovery::Analysis;
 use recovery::conversion::{spec_findings, update};
@@ -48,11 +48,6 @@ impl<'a> Conversion<'a> {
             budget,
             renewing: Renewing::No,
         }
-    }
-
-    /// What the spec says about the plant.
-    pub fn environment(&self) -> &[EnvironmentRule] {
-        &self.existing.environment
     }
 
     /// From now on rules that depart from the ladder are replaced.

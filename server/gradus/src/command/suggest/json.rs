@@ -24,7 +24,7 @@ pub fn json(found: &Found<'_>, budget: &Budget) -> Value {
             .collect::<Vec<_>>(),
         "sequence": sequence,
         "reason": reason,
-        "rules": sights.map(|it| it.rules),
+        "rules": sights.map(|it| it.environment.len()),
         "searched": sights.map(|it| it.is_whole),
         "groups": groups.map(group).collect::<Vec<_>>(),
     })

@@ -8,6 +8,7 @@
 //! | `gradus.ladderText` | `{ "uri" }` | the ladder in rung notation |
 //! | `gradus.conditions` | `{ "uri" }` | the conditions of all coils |
 //! | `gradus.simulate` | `{ "uri" }` | the scans of a scenario |
+//! | `gradus.search` | `{ "uri" }` | what sequences of inputs show of the ladder's successions |
 //! | `gradus.verify` | `{ "uri" }` | whether the spec does what the ladder does |
 //! | `gradus.showScan` | `{ "uri", "line" or "scan" }` | shows a scan in ladder and spec |
 //! | `gradus.hideScan` | | shows it no more |
@@ -27,6 +28,7 @@ use super::verify::VERIFY;
 use crate::lsp::edit::Changes;
 use crate::lsp::log::Log;
 use crate::lsp::query::Query;
+use crate::lsp::searching::SEARCH;
 use crate::lsp::virtual_document::View;
 use crate::lsp::world::World;
 
@@ -37,7 +39,7 @@ pub const EXPLAIN: &str = "gradus.explain";
 pub const OPEN_SPEC: &str = "gradus.openSpec";
 
 /// All commands.
-pub const ALL: [&str; 11] = [
+pub const ALL: [&str; 12] = [
     "gradus.convert",
     "gradus.acceptHandovers",
     OPEN_SPEC,
@@ -46,6 +48,7 @@ pub const ALL: [&str; 11] = [
     SIMULATE,
     SHOW_SCAN,
     HIDE_SCAN,
+    SEARCH,
     VERIFY,
     EXPLAIN,
     "gradus.report",
@@ -58,6 +61,9 @@ pub enum Command {
     Ladder(Uri, LadderCommand),
     /// Show the scans of the scenario at an address.
     Simulate(Uri),
+    /// Search for sequences of inputs that show which state follows which in the
+    /// ladder of the pair at an address.
+    Search(Uri),
     /// Find out whether the spec of the pair at an address does what its ladder does.
     Verify(Uri),
     /// Show, in ladder and spec, a scan of the scenario at an address.
@@ -121,6 +127,7 @@ pub fn read(params: ExecuteCommandParams) -> Result<Command> {
     };
     let (uri, command) = match name.as_str() {
         SIMULATE => return Ok(Command::Simulate(argument()?.uri)),
+        SEARCH => return Ok(Command::Search(argument()?.uri)),
         VERIFY => return Ok(Command::Verify(argument()?.uri)),
         SHOW_SCAN => {
             let argument = argument()?;
