@@ -109,22 +109,17 @@ impl<'n> Checking<'n> {
         if self.is_decided() {
             return Ok(());
         }
-        let cone = self.netlist.cone(&self.open());
-        let components = components(&cone.netlist);
-        let mut parts = Vec::new();
-        let alone = Classes::alone(cone.netlist.size());
-        let mut cutter = Cutter::new(&cone.netlist, &alone);
-        for (at, component) in components.iter().enumerate() {
-            let part = cone.within(cutter.cut(&component.properties, &component.constraints));
-            // A hard part leaves something for the others.
-            let share = self.left / 2 / (components.len() - at) as u64;
-            parts.push(self.simplify(part, share)?);
-        }
+        let parts = self.simplified_parts()?;
         if self.is_decided() {
             return Ok(());
         }
-        let cores: Vec<Cone> = parts.iter().map(|part| part.core(&self.status)).collect();
+        let mut cores = Vec::with_capacity(parts.len());
+        for part in &parts {
+            self.look()?;
+            cores.push(part.core(&self.status));
+        }
         let core = joined(&cores);
+        self.look()?;
         let framings: Vec<Framing<'_>> = parts
             .iter()
             .map(|part| Framing::new(&part.cone.netlist))
@@ -156,6 +151,30 @@ impl<'n> Checking<'n> {
             steps = steps.saturating_mul(2);
         }
         Ok(())
+    }
+
+    /// The parts that have nothing to do with each other, each by itself.
+    fn simplified_parts(&mut self) -> Result<Vec<Part>, Why> {
+        self.look()?;
+        let cone = self.netlist.cone(&self.open());
+        self.look()?;
+        let components = components(&cone.netlist);
+        let mut parts = Vec::new();
+        let alone = Classes::alone(cone.netlist.size());
+        let mut cutter = Cutter::new(&cone.netlist, &alone);
+        for (at, component) in components.iter().enumerate() {
+            self.look()?;
+            let part = cone.within(cutter.cut(&component.properties, &component.constraints));
+            // A hard part leaves something for the others.
+            let share = self.left / 2 / (components.len() - at) as u64;
+            parts.push(self.simplify(part, share)?);
+        }
+        Ok(parts)
+    }
+
+    /// Stops if somebody asked to.
+    fn look(&self) -> Result<(), Why> {
+        Meter::new(self.limits, 0).look()
     }
 
     /// Random runs of a part and the equalities in it, as far as they can be

@@ -27,8 +27,13 @@ const LOOK: usize = 1024;
 type Operation = fn(Option<bool>, Option<bool>) -> Option<bool>;
 
 impl Diagrams {
+    /// Whether so many variables are not tried.
+    pub fn are_too_many(variables: usize) -> bool {
+        variables > MOST_VARIABLES
+    }
+
     pub fn new(variables: usize) -> Result<Self, Why> {
-        if variables > MOST_VARIABLES {
+        if Self::are_too_many(variables) {
             return Err(Why::Memory);
         }
         Ok(Self {

@@ -4,6 +4,7 @@
 
 use crate::classes::Classes;
 use crate::cone::Cutter;
+use crate::diagrams::Diagrams;
 use crate::limits::{Meter, Why};
 use crate::reach::{Reach, Reached};
 use crate::{Cone, Netlist};
@@ -162,6 +163,10 @@ impl Group {
         let mut reach = match std::mem::replace(&mut self.state, State::Over) {
             State::Over => return Ok(Vec::new()),
             State::Begun(reach) => reach,
+            // Without a cut that is in vain.
+            State::Fresh if Diagrams::are_too_many(2 * self.latches.len()) => {
+                return Err(Why::Memory);
+            }
             State::Fresh => {
                 let netlist = cut(core, &self.properties).netlist;
                 let within = meter.spend(4 * netlist.size());
@@ -169,6 +174,7 @@ impl Group {
                     self.state = State::Fresh;
                 }
                 within?;
+                meter.look()?;
                 Box::new(Reach::new(netlist)?)
             }
         };

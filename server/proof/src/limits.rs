@@ -83,12 +83,18 @@ impl Meter {
     /// Uses up some steps; an error when there are none left, or on a cancel.
     pub fn spend(&mut self, steps: usize) -> Result<(), Why> {
         self.left = self.left.saturating_sub(steps as u64);
-        if self.cancel.is_cancelled() {
-            Err(Why::Cancelled)
-        } else if self.left == 0 {
-            Err(Why::Steps)
-        } else {
-            Ok(())
+        self.look()?;
+        match self.left {
+            0 => Err(Why::Steps),
+            _ => Ok(()),
+        }
+    }
+
+    /// Stops on a cancel.
+    pub fn look(&self) -> Result<(), Why> {
+        match self.cancel.is_cancelled() {
+            true => Err(Why::Cancelled),
+            false => Ok(()),
         }
     }
 

@@ -19,6 +19,7 @@ pub mod measure;
 pub mod memory;
 pub mod pair;
 pub mod plant;
+pub mod questions;
 pub mod real;
 pub mod sequencer;
 pub mod whole;

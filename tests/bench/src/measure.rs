@@ -25,14 +25,14 @@ pub fn time<T>(work: impl FnOnce() -> T) -> Duration {
 
 /// What this thread has worked so far.
 #[cfg(unix)]
-fn now() -> Duration {
+pub fn now() -> Duration {
     let time = rustix::time::clock_gettime(rustix::time::ClockId::ThreadCPUTime);
     Duration::try_from(time).unwrap_or_default()
 }
 
 /// The time since the first call.
 #[cfg(not(unix))]
-fn now() -> Duration {
+pub fn now() -> Duration {
     static FIRST: std::sync::OnceLock<std::time::Instant> = std::sync::OnceLock::new();
     FIRST.get_or_init(std::time::Instant::now).elapsed()
 }

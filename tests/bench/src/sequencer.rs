@@ -1,9 +1,9 @@
 //! Rows of sequencers: what proof engines are compared on.
 //!
 //! Each row is a cycle of eight steps; step k is left for the next one when the
-//! row's input k+1 is 1. The steps drive three actions. All rows run at once
-//! and know nothing of each other, so that the number of states is eight to the
-//! power of the rows. The same behaviour is built in three ways.
+//! row's input k+1 is 1. The steps drive three actions. All rows run at once, so
+//! that the number of states is up to eight to the power of the rows. The same
+//! behaviour is built in three ways.
 
 use proof::{Gates, Netlist, Signal};
 
@@ -33,39 +33,79 @@ pub struct Fault {
     pub step: usize,
 }
 
-/// So many rows in an encoding.
-pub fn rows(rows: usize, encoding: Encoding, fault: Option<Fault>) -> Netlist {
-    let mut netlist = Netlist::default();
-    for row in 0..rows {
+/// What rows have to do with each other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Coupling {
+    /// Nothing.
+    Alone,
+    /// Each leaves its first step only while the row before it is in its step 4,
+    /// and a stop button keeps all of them where they are.
+    Waiting,
+}
+
+/// Rows of sequencers.
+#[derive(Clone, Copy, Debug)]
+pub struct Rows {
+    /// How many.
+    pub count: usize,
+    /// How their steps are kept.
+    pub encoding: Encoding,
+    /// What they have to do with each other.
+    pub coupling: Coupling,
+    /// What is wrong.
+    pub fault: Option<Fault>,
+}
+
+impl Rows {
+    /// The rows as a transition system.
+    pub fn netlist(&self) -> Netlist {
+        let mut netlist = Netlist::default();
+        let goes = match self.coupling {
+            Coupling::Alone => Signal::TRUE,
+            Coupling::Waiting => !netlist.input("stop"),
+        };
+        let mut before = Signal::TRUE;
+        for row in 0..self.count {
+            let steps = self.row(&mut netlist, row, goes, before);
+            if self.coupling == Coupling::Waiting {
+                before = steps[STEPS / 2];
+            }
+            let actions = [
+                vec![steps[1], steps[2], steps[3]],
+                vec![steps[4], steps[6]],
+                vec![steps[7]],
+            ];
+            for (at, steps) in actions.iter().enumerate() {
+                let action = netlist.any(steps);
+                netlist.output(format!("r{row}a{at}"), action);
+            }
+        }
+        netlist
+    }
+
+    /// The steps of a row, which `goes` on while the row `before` it lets it.
+    fn row(&self, netlist: &mut Netlist, row: usize, goes: Signal, before: Signal) -> Vec<Signal> {
         let inputs: Vec<Signal> = (0..STEPS)
             .map(|step| netlist.input(format!("r{row}t{step}")))
             .collect();
         let leaves: Vec<Signal> = (0..STEPS)
             .map(|step| {
                 let own = inputs[(step + 1) % STEPS];
-                match fault {
+                let asked = match self.fault {
                     Some(fault) if (fault.row, fault.step) == (row, step) => {
                         netlist.or(own, inputs[(step + 2) % STEPS])
                     }
                     _ => own,
-                }
+                };
+                let waits = if step == 0 { before } else { Signal::TRUE };
+                netlist.all(&[asked, goes, waits])
             })
             .collect();
-        let steps = match encoding {
-            Encoding::Register => register(&mut netlist, row, &leaves),
-            _ => latches(&mut netlist, row, &leaves, encoding),
-        };
-        let actions = [
-            vec![steps[1], steps[2], steps[3]],
-            vec![steps[4], steps[6]],
-            vec![steps[7]],
-        ];
-        for (at, steps) in actions.iter().enumerate() {
-            let action = netlist.any(steps);
-            netlist.output(format!("r{row}a{at}"), action);
+        match self.encoding {
+            Encoding::Register => register(netlist, row, &leaves),
+            _ => latches(netlist, row, &leaves, self.encoding),
         }
     }
-    netlist
 }
 
 fn latches(

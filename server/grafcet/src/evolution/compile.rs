@@ -45,6 +45,10 @@ pub(super) fn compile(grafcet: &Grafcet) -> Net {
 struct Compiler<'g> {
     grafcet: &'g Grafcet,
     part_names: HashMap<&'g Name, usize>,
+    steps: HashMap<&'g str, &'g crate::Step>,
+    /// What is declared, and whether as an output.
+    declared: HashMap<&'g Name, bool>,
+    published: HashSet<usize>,
     net: Net,
 }
 
@@ -54,9 +58,23 @@ impl<'g> Compiler<'g> {
         for (at, part) in grafcet.parts.iter().enumerate() {
             part_names.entry(&part.name).or_insert(at);
         }
+        let mut steps = HashMap::new();
+        for step in grafcet.steps() {
+            steps.entry(&*step.name).or_insert(step);
+        }
+        let mut declared = HashMap::new();
+        for variable in grafcet.variables() {
+            declared.insert(&variable.name, false);
+        }
+        for output in &grafcet.outputs {
+            declared.insert(&output.name, true);
+        }
         let mut compiler = Self {
             grafcet,
             part_names,
+            steps,
+            declared,
+            published: HashSet::new(),
             net: Net::default(),
         };
         for step in grafcet.steps() {
@@ -95,7 +113,7 @@ impl<'g> Compiler<'g> {
     /// What the step at this place really is.
     fn kind(&self, at: usize) -> Kind {
         let name = &self.net.steps[at].name;
-        match self.grafcet.step(name).map(|step| &step.kind) {
+        match self.steps.get(&**name).map(|step| &step.kind) {
             Some(StepKind::Macro(_)) => self.macro_step(name).map_or(Kind::Plain, Kind::Macro),
             Some(StepKind::Enclosing(parts)) => {
                 let parts = parts.iter().filter_map(|part| self.part_names.get(part));
@@ -108,7 +126,7 @@ impl<'g> Compiler<'g> {
     /// The expansion that the step of this name stands for, if it is a
     /// macro-step that has one.
     fn expansion_of(&self, step: &str) -> Option<(usize, &'g Name, &'g Name)> {
-        let StepKind::Macro(name) = &self.grafcet.step(step)?.kind else {
+        let StepKind::Macro(name) = &self.steps.get(step)?.kind else {
             return None;
         };
         let part = *self.part_names.get(name)?;
@@ -366,10 +384,9 @@ impl<'g> Compiler<'g> {
     /// Counts what is declared as an output, or is written and not declared,
     /// among the outputs.
     fn publish(&mut self, name: &Name) {
-        let declared = self.grafcet.variable(name).is_some();
-        let is_output = self.grafcet.outputs.iter().any(|it| it.name == *name);
+        let is_output = self.declared.get(name).copied().unwrap_or(true);
         let at = self.variable(name);
-        if (is_output || !declared) && !self.net.outputs.contains(&at) {
+        if is_output && self.published.insert(at) {
             self.net.outputs.push(at);
         }
     }

@@ -17,6 +17,7 @@ impl Pass<'_> {
         evolutions: usize,
     ) -> Result<Signal, Refusal> {
         let net = self.net;
+        self.look()?;
         self.sample(0..net.sampled_first, state);
         self.on_events(state)?;
         let situation = state.active.clone();

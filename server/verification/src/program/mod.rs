@@ -346,6 +346,21 @@ fn backward(routine: &Routine, rung: usize, jump: NodeIndex) -> Refusal {
     Refusal::BackwardJump(label.unwrap_or_else(|| routine.name.clone()))
 }
 
+/// The first number of bits of unknown words. A text that names such a bit depends
+/// on its word, by whose number the ladder's texts are known.
+const BITS: usize = 1 << 50;
+
+fn bit_of_unknown(word: usize, bit: u32) -> usize {
+    BITS | word << 6 | bit as usize & 63
+}
+
+fn word_of_unknown(number: usize) -> usize {
+    match number {
+        BITS.. => (number ^ BITS) >> 6,
+        _ => number,
+    }
+}
+
 impl Followed {
     /// The name that the ladder knows a variable by, which is called by its
     /// name or address.
@@ -402,7 +417,10 @@ impl Followed {
         }
         if let Some((word, bit)) = self.bit(name) {
             let of = |word: &[Datum]| Datum::Bool(word[0].integer() >> bit & 1 == 1);
-            return Some(applied(net, &[word], of).unwrap_or(Value::Unknown(0)));
+            return match word {
+                Value::Unknown(word) => Some(Value::Unknown(bit_of_unknown(*word, bit))),
+                Value::Known(_) => applied(net, &[word], of).or(Some(Value::Unknown(0))),
+            };
         }
         let value = self.untouched.get(&self.resolved(name))?;
         Some(Value::constant(*value))
@@ -415,7 +433,8 @@ impl Followed {
 
     /// What stands for a text that depends on these unknown numbers.
     pub(crate) fn free(&self, text: &str, unknowns: &[usize]) -> Option<Signal> {
-        let key = (text.to_owned(), unknowns.to_vec());
+        let of_ladder = unknowns.iter().map(|it| word_of_unknown(*it));
+        let key = (text.to_owned(), of_ladder.collect());
         self.frees.get(&key).copied()
     }
 

@@ -195,3 +195,14 @@ fn what_is_not_compared_is_told() {
     );
     assert_told(&found.verdict, "unknown after 0: Nothing");
 }
+
+#[test]
+fn a_bit_of_a_number_that_is_not_followed_is_the_same_on_both_sides() {
+    let ladder =
+        "program P\ninput w\ninput k\noutput o\noutput p\nrung: w.3 -> o\nrung: w > k -> p\n";
+    let spec = "\
+        Step X0\nTransition t0\nInput w.3\nOutput o\nMarking X0\n\n\
+        Transitions:\nt0: X0*0 |- @X0\n\nSteps:\nX0: w.3 |- o\n";
+    let found = verified(ladder, spec, Timing::Scan);
+    assert_told(&found.verdict, "equivalent");
+}
