@@ -57,8 +57,8 @@ Accepting:
              v1->v2&h&m     these states start together
 The arcs of step registers are exact and need no accepting.
 
-Last, the spec is verified with a small effort, after every scan: whether it does
-what the ladder does. `gradus verify` tells more.
+Last, the spec is verified with a small effort: whether it does what the ladder
+does after every scan, and if not, when both rest. `gradus verify` tells more.
 
 The summary goes to standard output. With `-o -` and --dry-run the spec, or its
 change, is the answer, and the summary goes to standard error.
@@ -68,8 +68,10 @@ JSON:
     \"states\": [{\"state\", \"accepted\": [{\"to\": [], \"new\"}], \"written\": [],
       \"open\": [{\"to\", \"evidence\", \"kind\"}], \"rejected\": [], \"initial\"}],
     \"two_step\": [], \"unreached\": [], \"in_definitions\": [], \"sequence\",
-    \"reason\", \"verdict\", \"diagnostics\": [], \"text\"}
-  `verdict` is equivalent, different or unknown, null where the spec has no outputs.
+    \"reason\", \"verdict\", \"settled\", \"diagnostics\": [], \"text\"}
+  `verdict` is equivalent, different or unknown, null where the spec has no outputs;
+  `settled` is equivalent where it is different after single scans and equal when
+  both sides rest, else null.
   `state` is new, changed, unchanged, would_change or printed. `states` are those
   about which something is decided, written or open; `two_step` those that no
   accepted pair ties to a sequence, `unreached` those to which nothing accepted
@@ -271,7 +273,11 @@ fn finish(
     let status = ladder.status().max(status(&findings));
     let verdict = {
         let _progress = program::progress("Verifying", ladder);
-        verdict::of(&ladder.program, &new, io.cancel())
+        let effort = match args.accept {
+            Some(Wanted::Witnessed) => verdict::THOROUGH,
+            _ => verdict::EFFORT,
+        };
+        verdict::of(&ladder.program, &new, effort, io.cancel())
     };
     if args.json {
         let json = json::json(ladder, &outcome, state, &findings, &new, &verdict);

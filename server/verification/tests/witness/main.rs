@@ -3,6 +3,7 @@
 mod judge;
 mod ladders;
 mod paper;
+mod real;
 mod tank;
 
 use std::sync::Arc;

@@ -37,6 +37,7 @@ pub fn json(
         "sequence": sequence,
         "reason": reason,
         "verdict": verdict.word,
+        "settled": verdict.settled,
         "diagnostics": diagnostics["diagnostics"].take(),
         "text": is_printed.then_some(text),
     })
