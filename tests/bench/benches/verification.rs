@@ -2,8 +2,10 @@
 //! told apart where a rule is missing.
 
 use criterion::{Criterion, criterion_group, criterion_main};
+use logic::Budget;
 use proof::{Limits, check};
 use verification::program::{Bounds, follow};
+use verification::witness::sights;
 use verification::{Timing, Verdict, verify};
 
 fn verification(criterion: &mut Criterion) {
@@ -32,6 +34,16 @@ fn verification(criterion: &mut Criterion) {
     group.bench_function("tell apart without a rule", |bencher| {
         bencher.iter(|| both(&without));
     });
+    let analysis = recovery::analyse(&program, &Budget::default());
+    let none = [];
+    for (name, environment) in [
+        ("see what follows what", &none[..]),
+        ("see it in a plant of seven rules", &spec.environment),
+    ] {
+        group.bench_function(name, |bencher| {
+            bencher.iter(|| sights(&analysis, environment, &limits));
+        });
+    }
     group.finish();
 }
 

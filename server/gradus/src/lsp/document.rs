@@ -106,31 +106,31 @@ impl Document {
     /// outdated from now on, so that all work on it ends.
     pub fn renewed(&self) -> Self {
         self.outdate();
-        Self {
-            uri: self.uri.clone(),
-            key: self.key.clone(),
-            version: self.version,
-            rope: self.rope.clone(),
-            language_id: self.language_id.clone(),
-            before: Mutex::new(self.last_ladder()),
-            contents: OnceLock::new(),
-            findings: OnceLock::new(),
-            outdated: Cancel::default(),
-        }
+        self.again(self.last_ladder())
     }
 
     /// The same document, of whose ladder more is known.
     pub fn holding(&self, ladder: Arc<Ladder>) -> Self {
         Self {
+            contents: OnceLock::from(Contents::Ladder(ladder)),
+            findings: self.findings.clone(),
+            outdated: self.outdated.clone(),
+            ..self.again(None)
+        }
+    }
+
+    /// The same text, of which no more is known than the ladder `before`.
+    fn again(&self, before: Option<Arc<Ladder>>) -> Self {
+        Self {
             uri: self.uri.clone(),
             key: self.key.clone(),
             version: self.version,
             rope: self.rope.clone(),
             language_id: self.language_id.clone(),
-            before: Mutex::default(),
-            contents: OnceLock::from(Contents::Ladder(ladder)),
-            findings: self.findings.clone(),
-            outdated: self.outdated.clone(),
+            before: Mutex::new(before),
+            contents: OnceLock::new(),
+            findings: OnceLock::new(),
+            outdated: Cancel::default(),
         }
     }
 
