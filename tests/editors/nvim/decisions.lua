@@ -14,6 +14,16 @@ t.test('K tells the conditions of a coil', function()
   end
 end)
 
+t.test('K tells the sequence in which a state was seen to follow, once it was searched for', function()
+  t.tank('searched')
+  t.go_to('-> ' .. case.hover.coil, 3)
+  vim.cmd.Gradus('search')
+  t.wait('what was seen', function()
+    return vim.fn.execute('messages'):find('30 successions seen', 1, true)
+  end)
+  t.holds(t.float('K'), 'seen after: on s; on ls2')
+end)
+
 t.test('K tells the conditions of a coil inside a real L5X export', function()
   local file = vim.fs.joinpath(t.corpus, real.file)
   if not vim.uv.fs_stat(file) then

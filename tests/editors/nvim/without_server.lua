@@ -65,7 +65,7 @@ t.test('the command completes its subcommands and what they take', function()
   end
   t.equal(complete('Gradus con'), { 'conditions', 'convert' })
   t.equal(complete('Gradus convert '), { 'none', 'handover', 'all' })
-  t.equal(complete('Gradus s'), { 'scan', 'simulate', 'spec' })
+  t.equal(complete('Gradus s'), { 'scan', 'search', 'simulate', 'spec' })
   t.equal(complete('Gradus scan '), { 'off' })
   t.equal(complete('Gradus spec '), {})
 end)

@@ -43,6 +43,15 @@ export function commands(at) {
     await editor.shows(`${tank.ladder}.txt`, "Open valve v1");
   });
 
+  test("sequences are searched, and the hover tells in which a state was seen to follow", async () => {
+    const { editor } = at;
+    const tank = newTank("searched");
+    await editor.open(tank.ladder);
+    await editor.goTo(...tank.place("(v2 +", 1));
+    await editor.run("Gradus: Search for Sequences That Show What Follows What");
+    await editor.hover("seen after: on s; on ls2");
+  });
+
   const export_ = realFile(real.file);
   test("the ladder of a real L5X export is shown as text", { skip: export_ ? false : "no corpus" }, async () => {
     const { editor, workbench } = at;
