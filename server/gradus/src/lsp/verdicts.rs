@@ -72,12 +72,12 @@ pub enum Outcome {
 }
 
 impl Known {
-    /// Whether so much work would come to nothing else: it is decided, or as much
-    /// was done, or left undone, already.
-    pub fn serves(&self, effort: u64) -> bool {
+    /// Whether so much work would find nothing else: it is decided, or as much was
+    /// done already.
+    pub fn is_found(&self, effort: u64) -> bool {
         match &self.outcome {
             Outcome::Found(verdict) => self.effort >= effort || is_decided(verdict),
-            Outcome::Stopped | Outcome::Mistaken => self.effort >= effort,
+            Outcome::Stopped | Outcome::Mistaken => false,
         }
     }
 }
