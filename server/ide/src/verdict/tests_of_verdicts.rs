@@ -328,3 +328,42 @@ fn the_section_is_made_where_there_is_none_and_labels_are_free() {
         "{new}"
     );
 }
+
+#[test]
+fn names_that_need_quotes_and_numbers_are_said_as_they_are_written() {
+    let ladder = "\
+input \"Local:1:I\"
+input Level
+output \"a b\"
+rung: \"Local:1:I\" * (Level > 5) -> \"a b\"
+";
+    let spec = "\
+Step X0
+Input \"Local:1:I\", Level
+Output \"a b\"
+Marking X0
+Steps:
+X0: \"Local:1:I\" * (Level > 7) |- \"a b\"
+";
+    let found = Judgement::of(ladder, spec);
+    assert_eq!(found.line(), "different after 1 scan: \"a b\"");
+    let said = found.said();
+    assert!(
+        said[0].starts_with(
+            "G3201 \"a b\": after 1 scan, with \"Local:1:I\" and Level=6 on, the ladder has \
+             \"a b\" on and the spec has it off (scan timing)"
+        ),
+        "{said:?}"
+    );
+    let text = found.scenario(&About::Outputs).expect("a scenario");
+    assert!(
+        text.ends_with("\non \"Local:1:I\", Level = 6 => on \"a b\"\n"),
+        "{text}"
+    );
+    for rule in found.rules(&About::Outputs, &[]) {
+        assert!(
+            rule.contains("Local:1:I") && !rule.contains("Level"),
+            "{rule}"
+        );
+    }
+}
