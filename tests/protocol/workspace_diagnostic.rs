@@ -241,6 +241,35 @@ fn who_takes_parts_is_told_in_parts_and_then_only_of_changes() {
 }
 
 #[test]
+fn a_question_that_is_kept_is_answered_when_a_verdict_is_known() {
+    let spec = "Step X0\nInput a\nOutput b\nMarking X0\nSteps:\nX0: 0 |- b\n";
+    let ladder = "input a\noutput b\nrung: a -> b\n";
+    let mut session = Session::new(
+        Profile::VsCode,
+        &[("tank.ladder", ladder), ("tank.grafcet", spec)],
+    );
+    let address = session.uri("tank.grafcet");
+    session.raw.open(&address, spec);
+    let mut told = session.ask();
+    let wanted = |told: &[String]| told.iter().any(|it| it == "tank.grafcet 1 [G3101 G3201]");
+    while !wanted(&told) {
+        let params = session.params_with("parts");
+        let asked = session.raw.begin(METHOD, params);
+        told = parts(&mut session, &asked, "parts");
+    }
+    // Whoever knows it is told nothing anew, until nobody looks at the spec.
+    let params = session.params_with("kept");
+    let asked = session.raw.begin(METHOD, params);
+    let document = json!({ "textDocument": { "uri": address } });
+    session.raw.notify("textDocument/didClose", document);
+    assert_eq!(
+        parts(&mut session, &asked, "kept"),
+        ["tank.grafcet [G3101]", "tank.ladder as before"]
+    );
+    session.raw.finish();
+}
+
+#[test]
 fn a_question_that_is_kept_can_be_cancelled_and_ends_with_the_session() {
     let mut session = Session::new(Profile::VsCode, &[("a.ladder", QUIET)]);
     session.ask();

@@ -1,7 +1,7 @@
 // Whether the spec does what the ladder does, found out while the spec is edited: the finding,
 // its actions, the lens and the item in the status bar, and the trace of a difference.
 import assert from "node:assert/strict";
-import { existsSync, readFileSync, writeFileSync } from "node:fs";
+import { existsSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
 import { Copy, cases, fixture, gradus } from "./gradus.mjs";
@@ -10,9 +10,12 @@ import { until } from "./workbench.mjs";
 const { neutralization } = cases;
 
 export function verdicts(at) {
-  /** A copy of the tank with the sequence drawn by hand beside it, without the rule of a label. */
+  /** A copy of the tank in a folder of its own, the sequence drawn by hand beside it, without the rule of a label. */
   const newTank = (name, without) => {
-    const tank = new Copy(at.workbench.folder, name, fixture(neutralization.file));
+    const folder = join(at.workbench.folder, name);
+    mkdirSync(folder);
+    writeFileSync(join(folder, "gradus.toml"), "verify.enable = true\n");
+    const tank = new Copy(folder, name, fixture(neutralization.file));
     const lines = readFileSync(fixture(neutralization.sequence), "utf8").split("\n");
     const kept = lines.filter((line) => !line.startsWith(`${without}:`));
     writeFileSync(tank.spec, kept.join("\n"));
@@ -42,7 +45,7 @@ export function verdicts(at) {
     const tank = newTank("traced", "e6");
     // What was seen at the plant tells which rules may be facts.
     const table = readFileSync(fixture("fixtures/neutralization/table-2.scenario"), "utf8");
-    writeFileSync(join(at.workbench.folder, "seen.scenario"), table.replace("neutralization.ladder", "traced.ladder"));
+    writeFileSync(join(at.workbench.folder, "traced/seen.scenario"), table.replace("neutralization.ladder", "traced.ladder"));
     await editor.open(tank.spec);
     await editor.hasLens(tank.spec, "different after 4 scans: v1");
     await editor.run("Gradus: Verify That the Spec Does What the Ladder Does");
@@ -52,10 +55,10 @@ export function verdicts(at) {
     const action = readFileSync(tank.spec, "utf8").split("\n").indexOf("Xv1: |- v1");
     await editor.goTo(action + 1, 9);
     await editor.act(/Add this trace as a scenario/);
-    const scenario = join(at.workbench.folder, "traced-trace.scenario");
-    await until("the scenario", () => existsSync(scenario));
-    await editor.saveAll();
-    assert.match(readFileSync(scenario, "utf8"), /^for traced\.ladder, traced\.grafcet$/m);
+    const scenario = join(at.workbench.folder, "traced/traced-trace.scenario");
+    const isWritten = () => existsSync(scenario) && readFileSync(scenario, "utf8").includes("\nfor traced.ladder, traced.grafcet\n");
+    // The editor saves what it writes into files that are not open.
+    await until("the scenario is written", isWritten);
     // On the ladder alone it passes: what it expects is what the ladder does.
     gradus("simulate", tank.ladder, scenario);
     await editor.act(/s is off in the scan after one with v3 on/);

@@ -26,8 +26,9 @@ const userSettings = {
   "extensions.ignoreRecommendations": true,
   "files.autoSave": "off",
   "git.enabled": false,
-  // Cases count what is found in the files they open; one turns it on for a folder of its own.
+  // Cases count what is found in the files they open; others turn these on for folders of their own.
   "gradus.diagnostics.workspace": false,
+  "gradus.verify.enable": false,
   "security.workspace.trust.startupPrompt": "never",
   "telemetry.telemetryLevel": "off",
   "update.mode": "none",

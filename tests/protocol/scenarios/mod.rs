@@ -9,7 +9,7 @@ mod texts;
 
 use end_to_end::lsp::{Client, Marked};
 
-const LADDER: &str = "\
+pub const LADDER: &str = "\
 program Tank
 input s
 input ls2
@@ -17,7 +17,7 @@ output v1 %Q0 // Fill
 rung: (s + v1) * /ls2 -> v1
 ";
 
-const SPEC: &str = "\
+pub const SPEC: &str = "\
 Grafcet Tank
 Step X0, Xv1 for v1
 Transition t1, t2

@@ -157,6 +157,12 @@ fn a_proof_that_the_user_stops_is_not_begun_again_until_it_is_about_something_el
     assert_eq!(lens(&mut raw), "proof stopped");
     raw.change(&spec, 2, &format!("// Never on\n{NEVER}"));
     assert_eq!(lens(&mut raw), "proof stopped");
+    // But it is when somebody asks for it.
+    let asked = json!({ "command": "gradus.verify", "arguments": [{ "uri": spec }] });
+    let id = raw.begin("workspace/executeCommand", asked);
+    under_way(&mut raw, "hard");
+    raw.notify("$/cancelRequest", json!({ "id": id }));
+    raw.end(&id);
     raw.change(&spec, 3, &NEVER.replace("Marking X0", "Marking X1"));
     assert_eq!(lens(&mut raw), "proving …");
     raw.finish();

@@ -8,27 +8,7 @@ mod saying;
 use end_to_end::lsp::{Client, Profile};
 use serde_json::{Value, json};
 
-const LADDER: &str = "\
-program Tank
-input s
-input ls2
-output v1 %Q0 // Fill
-rung: (s + v1) * /ls2 -> v1
-";
-
-const SPEC: &str = "\
-Grafcet Tank
-Step X0, Xv1 for v1
-Transition t1, t2
-Input s, ls2
-Output v1
-Marking X0
-Transitions:
-t1: X0*s*/ls2 |- @Xv1
-t2: Xv1*ls2 |- @X0
-Steps:
-Xv1: |- v1
-";
+use crate::scenarios::{LADDER, SPEC};
 
 /// The spec when the tank overflows while somebody does not press start.
 fn overflowing() -> String {

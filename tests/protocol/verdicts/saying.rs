@@ -107,6 +107,9 @@ fn what_cannot_be_compared_and_what_has_errors_is_said_so() {
     assert_eq!(proof(&mut client, "mistaken"), line);
     assert_eq!(lens(&mut client), line);
     assert_eq!(codes(&mut client), ["G3001"]);
+    // What is read without the line is what was read of it.
+    client.replace("tank.grafcet", "e1: s |- (\n", "");
+    assert_eq!(proof(&mut client, "equivalent"), "equivalent (scan timing)");
 }
 
 #[test]

@@ -3,7 +3,6 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use clap::ValueEnum;
 use grafcet::Spec;
 use proof::{Limits, aiger, blif};
 use verification::{Verdict, Verification, verify};
@@ -15,6 +14,7 @@ use crate::io::{Io, is_standard_input};
 use crate::program;
 use crate::progress::Progress;
 use crate::report::printable;
+use crate::settings::Timing;
 use crate::status::Status;
 use ide::language;
 
@@ -111,23 +111,6 @@ pub struct Args {
     /// Answer in JSON.
     #[arg(long)]
     json: bool,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Timing {
-    /// After every scan.
-    Scan,
-    /// When both sides rest.
-    Settled,
-}
-
-impl From<Timing> for verification::Timing {
-    fn from(timing: Timing) -> Self {
-        match timing {
-            Timing::Scan => Self::Scan,
-            Timing::Settled => Self::Settled,
-        }
-    }
 }
 
 /// A ladder and its spec, as they were read.

@@ -1,7 +1,7 @@
 //! Proofs in the background, and those that somebody asks for.
 //!
 //! When a ladder or a spec has changed and rests for a moment, the pair is
-//! verified with a small effort. At most one such proof is at work, and one that
+//! verified with a small effort, in 150 MB at the very worst. At most one such proof is at work, and one that
 //! somebody asked for with a command; the others wait for their turn. A proof
 //! ends at once when one of its two texts changes, when both are closed, and when
 //! the user cancels its progress. Nothing is proved again that is known: see
@@ -11,7 +11,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use ide::Question;
-use proof::Limits;
+use proof::{Limits, Netlist};
 use source::{Diagnostic, Severity};
 use tokio::sync::Semaphore;
 use tower_lsp::jsonrpc::{Error, Result};
@@ -89,12 +89,20 @@ impl Task {
         })
     }
 
-    /// What is kept of it, if so much work would find nothing else.
-    fn answer(&self, world: &World, effort: u64) -> Option<Known> {
-        let known = world
-            .verdicts
-            .known(&self.pair, self.settings.timing.into())?;
-        known.serves(effort).then_some(known)
+    /// What is kept of it.
+    fn known(&self, world: &World) -> Option<Known> {
+        let timing = self.settings.timing.into();
+        world.verdicts.known(&self.pair, timing)
+    }
+
+    /// Whether the background has nothing to do: it is found out, nobody wants it to
+    /// be, or it cannot be while there are errors.
+    fn is_settled(&self, world: &World) -> bool {
+        self.known(world).is_some_and(|known| match known.outcome {
+            Outcome::Found(_) => known.is_found(self.settings.effort.millions()),
+            Outcome::Stopped => true,
+            Outcome::Mistaken => self.has_errors,
+        })
     }
 }
 
@@ -117,10 +125,11 @@ pub fn changed(shared: &Arc<Shared>, key: &FileKey) {
     });
 }
 
-/// The same when the document of `key` was closed.
+/// The same when the ladder or spec of `key` was closed.
 pub fn closed(shared: &Arc<Shared>, key: &FileKey) {
     let world = shared.state.world();
-    match world.open_partners(key).first() {
+    let partners = world.open_partners(key);
+    match partners.iter().find(|it| !it.may_be_scenario()) {
         Some(partner) => changed(shared, &partner.key),
         None => world.verdicts.forget(&key.without_ending()),
     }
@@ -131,10 +140,10 @@ async fn in_background(shared: &Arc<Shared>, stem: &FileKey, turn: Turn) {
     let (at, own) = (stem.clone(), world.clone());
     let task = elsewhere(move |_| {
         let task = Task::of(&own, &at).filter(|task| task.settings.enable)?;
-        let effort = task.settings.effort.millions();
-        task.answer(&own, effort).is_none().then_some(task)
+        (!task.is_settled(&own)).then_some(task)
     });
-    let Ok(Some(task)) = task.await else {
+    let task = task.await.ok().flatten();
+    let Some(task) = task.filter(|_| !world.is_ending) else {
         world.verdicts.end(&turn, None);
         return;
     };
@@ -144,7 +153,13 @@ async fn in_background(shared: &Arc<Shared>, stem: &FileKey, turn: Turn) {
         return;
     }
     if let Ok(_turn) = shared.proofs.background.acquire().await {
-        prove(shared, stem, &task, &turn, effort).await;
+        let limits = Limits {
+            gates: 1_000_000,
+            clauses: 1_000_000,
+            nodes: 250_000,
+            ..Limits::default()
+        };
+        prove(shared, stem, &task, &turn, effort, limits).await;
     }
 }
 
@@ -163,7 +178,7 @@ pub async fn asked(shared: &Arc<Shared>, uri: Uri) -> Result<Option<(Pair, Known
     let task = elsewhere(move |_| {
         let task = Task::at(&own, &uri)?;
         let effort = ASKED.max(task.settings.effort.millions());
-        let known = task.answer(&own, effort);
+        let known = task.known(&own).filter(|known| known.is_found(effort));
         Some((task, effort, known))
     });
     let Some((task, effort, known)) = task.await? else {
@@ -175,7 +190,8 @@ pub async fn asked(shared: &Arc<Shared>, uri: Uri) -> Result<Option<(Pair, Known
     let Ok(_turn) = shared.proofs.asked.acquire().await else {
         return Ok(None);
     };
-    match prove(shared, &asked.stem, &task, &asked.turn, effort).await {
+    let limits = Limits::default();
+    match prove(shared, &asked.stem, &task, &asked.turn, effort, limits).await {
         Some(known) => Ok(Some((task.pair, known))),
         None => Err(Error::content_modified()),
     }
@@ -197,13 +213,15 @@ impl Drop for Asked {
     }
 }
 
-/// Proves, and keeps what comes of it. `None` if something has changed meanwhile.
+/// Proves with so many millions of steps, and keeps what comes of it. `None` if
+/// something has changed meanwhile.
 async fn prove(
     shared: &Arc<Shared>,
     stem: &FileKey,
     task: &Task,
     turn: &Turn,
     effort: u64,
+    limits: Limits,
 ) -> Option<Known> {
     let name = task.pair.spec.as_ref().map(|it| it.key.name());
     let work = Work::Proof(name.unwrap_or_default(), turn.work.clone());
@@ -211,17 +229,17 @@ async fn prove(
     let limits = Limits {
         steps: effort.saturating_mul(1_000_000),
         cancel: turn.work.clone(),
-        ..Limits::default()
+        ..limits
     };
     let (pair, timing) = (task.pair.clone(), task.settings.timing.into());
     let found = elsewhere(move |_| {
         let (ladder, spec) = (pair.ladder()?, pair.spec()?);
-        Some(verify(
-            ladder.program(),
-            &spec.reading.spec,
-            timing,
-            &limits,
-        ))
+        let mut verdict = verify(ladder.program(), &spec.reading.spec, timing, &limits);
+        if let Ok(found) = &mut verdict {
+            // Nobody exports it from here, and it may be large.
+            found.question = Netlist::default();
+        }
+        Some(verdict)
     });
     let found = found.await;
     drop(under_way);

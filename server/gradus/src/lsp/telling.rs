@@ -230,7 +230,9 @@ pub fn closed(shared: &Arc<Shared>, document: &Document) {
     let (shared, uri) = (Arc::clone(shared), document.uri.clone());
     let key = document.key.clone();
     shared.tellers.stop(&key);
-    proving::closed(&shared, &key);
+    if !document.may_be_scenario() {
+        proving::closed(&shared, &key);
+    }
     tokio::spawn(async move {
         let world = shared.state.world();
         if !world.abilities.pulls_diagnostics && !world.open.contains_key(&key) {

@@ -72,12 +72,12 @@ pub enum Outcome {
 }
 
 impl Known {
-    /// Whether so much work would come to nothing else: it is decided, or as much
-    /// was done, or left undone, already.
-    pub fn serves(&self, effort: u64) -> bool {
+    /// Whether so much work would find nothing else: it is decided, or as much was
+    /// done already.
+    pub fn is_found(&self, effort: u64) -> bool {
         match &self.outcome {
             Outcome::Found(verdict) => self.effort >= effort || is_decided(verdict),
-            Outcome::Stopped | Outcome::Mistaken => self.effort >= effort,
+            Outcome::Stopped | Outcome::Mistaken => false,
         }
     }
 }
@@ -218,5 +218,107 @@ impl Verdicts {
 
     fn lock(&self) -> MutexGuard<'_, HashMap<FileKey, Entry>> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::str::FromStr;
+
+    use tower_lsp::ls_types::Uri;
+    use verification::verify;
+
+    use super::*;
+    use crate::lsp::document::Document;
+    use crate::settings::Config;
+
+    const LADDER: &str = "input a\noutput b\nrung: a -> b\n";
+    const SPEC: &str = "Step X0\nInput a\nOutput b\nMarking X0\nSteps:\nX0: a |- b\n";
+
+    fn pair(ladder: &str, spec: &str) -> Pair {
+        let document = |name: &str, text: &str| {
+            let uri = Uri::from_str(&format!("file:///p/{name}")).expect("an address");
+            Some(Arc::new(Document::new(uri, "", Some(1), text)))
+        };
+        Pair {
+            ladder: document("a.ladder", ladder),
+            spec: document("a.grafcet", spec),
+        }
+    }
+
+    fn stem() -> FileKey {
+        FileKey::of(&Uri::from_str("file:///p/a.grafcet").expect("an address")).without_ending()
+    }
+
+    fn known(pair: &Pair, effort: u64, steps: u64) -> Known {
+        let (ladder, spec) = (
+            pair.ladder().expect("a ladder"),
+            pair.spec().expect("a spec"),
+        );
+        let limits = proof::Limits {
+            steps,
+            ..proof::Limits::default()
+        };
+        let verdict = verify(ladder.program(), &spec.reading.spec, Timing::Scan, &limits);
+        Known {
+            question: Question::of(ladder, spec),
+            timing: Timing::Scan,
+            effort,
+            outcome: Outcome::Found(Arc::new(verdict)),
+        }
+    }
+
+    fn word(verdicts: &Verdicts, pair: &Pair) -> &'static str {
+        match verdicts.standing(pair, &Config::default().verify) {
+            Standing::Open => "open",
+            Standing::Unasked => "unasked",
+            Standing::Known(Outcome::Found(verdict)) => ide::verdict_word(&verdict),
+            Standing::Known(_) => "stopped or mistaken",
+        }
+    }
+
+    #[test]
+    fn what_is_found_holds_as_long_as_the_same_is_asked() {
+        let (verdicts, asked) = (Verdicts::default(), pair(LADDER, SPEC));
+        assert_eq!(word(&verdicts, &asked), "unasked");
+        let turn = verdicts.begin(&stem(), UnderWay::Background);
+        assert_eq!(word(&verdicts, &asked), "open");
+        assert!(verdicts.end(&turn, Some(known(&asked, 1, 1_000_000))));
+        assert_eq!(word(&verdicts, &asked), "equivalent");
+        verdicts.begin(&stem(), UnderWay::Background);
+        let moved = pair(&format!("\n{LADDER}"), &format!("// By hand\n{SPEC}"));
+        assert_eq!(word(&verdicts, &moved), "equivalent");
+        let other = pair(&LADDER.replace("a -> b", "/a -> b"), SPEC);
+        assert_eq!(word(&verdicts, &other), "open");
+        assert!(verdicts.known(&asked, Timing::Settled).is_none());
+        verdicts.forget(&stem());
+        assert_eq!(word(&verdicts, &asked), "unasked");
+    }
+
+    #[test]
+    fn what_has_changed_meanwhile_ends_and_is_not_kept() {
+        let (verdicts, asked) = (Verdicts::default(), pair(LADDER, SPEC));
+        let first = verdicts.begin(&stem(), UnderWay::Background);
+        let second = verdicts.begin(&stem(), UnderWay::Asked);
+        assert!(first.work.is_cancelled() && !second.work.is_cancelled());
+        assert!(!verdicts.end(&first, Some(known(&asked, 1, 1_000_000))));
+        assert_eq!(word(&verdicts, &asked), "open");
+        assert!(verdicts.abandon(&second) && second.work.is_cancelled());
+        assert!(!verdicts.abandon(&second));
+        assert_eq!(word(&verdicts, &asked), "unasked");
+    }
+
+    #[test]
+    fn more_work_is_done_only_where_it_could_find_more() {
+        let asked = pair(LADDER, SPEC);
+        let proved = known(&asked, 1, 1_000_000);
+        assert!(proved.is_found(1) && proved.is_found(1_000));
+        let open = known(&asked, 1, 1);
+        assert!(open.is_found(1) && !open.is_found(2));
+        let stopped = Known {
+            outcome: Outcome::Stopped,
+            ..open
+        };
+        assert!(!stopped.is_found(1));
     }
 }

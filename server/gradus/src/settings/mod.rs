@@ -15,6 +15,7 @@ mod tests;
 use std::collections::HashSet;
 use std::num::NonZeroU32;
 
+use clap::ValueEnum;
 use recovery::successions::Evidence;
 use serde::{Deserialize, Deserializer, Serialize, de};
 use source::Code;
@@ -124,7 +125,7 @@ pub struct Verify {
 }
 
 /// When outputs are compared.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, ValueEnum)]
 #[cfg_attr(test, derive(schemars::JsonSchema), schemars(inline))]
 #[serde(rename_all = "lowercase")]
 pub enum Timing {

@@ -24,6 +24,7 @@ pub use hints::{hints_in_scenario, powered_in_ladder, situation_in_spec};
 pub use lenses::{ScenarioLens, Shows, lenses_in_scenario};
 pub(crate) use meaning::variable;
 pub use meaning::{is_meant, meaning};
+pub(crate) use run::most_scans;
 pub use run::{Finding, Run, subject};
 pub use tokens::tokens_in_scenario;
 

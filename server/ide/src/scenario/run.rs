@@ -20,7 +20,7 @@ const FEWEST_SCANS: u64 = 100;
 const MOST_SCANS: u64 = 100_000;
 
 /// The scans that a run of a ladder with so many rungs may take.
-fn most_scans(rungs: usize) -> u64 {
+pub(crate) fn most_scans(rungs: usize) -> u64 {
     let rungs = u64::try_from(rungs).unwrap_or(u64::MAX).max(1);
     (MOST_SOLVED / rungs).clamp(FEWEST_SCANS, MOST_SCANS)
 }

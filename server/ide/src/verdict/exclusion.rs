@@ -10,17 +10,22 @@
 
 use std::collections::{BTreeSet, HashSet};
 
-use ::verification::{Step, Trace, What};
-use grafcet::EnvironmentRule;
+use ::verification::{Difference, Trace, What};
 use logic::{Datum, Name};
 use source::Edit;
 
-use super::rule::{Fact, Literal, Obeyed, obeyed};
+use super::rule::{Fact, Literal};
 use super::{About, Judged, Observed};
+use crate::changed;
 use crate::navigate::driving;
 
 /// So many rules of a form are offered.
 const MOST: usize = 2;
+
+/// So many scans are looked at, those of the trace and those that were observed
+/// once for each fact: some tenths of a second. The facts that are tried first
+/// are those about what changes.
+const MOST_LOOKS: usize = 1_000_000;
 
 /// A rule under which a sequence cannot happen.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -40,51 +45,23 @@ pub fn exclusions(judged: Judged<'_>, about: &About, observed: &[Observed]) -> V
     let Some(difference) = judged.difference(about) else {
         return Vec::new();
     };
-    let trace = &difference.trace;
-    let Some(at) = last_change(trace) else {
+    let seen = observed.iter().filter(|it| !it.follows(&difference.trace));
+    let Some(case) = Case::of(judged, about, difference, seen.collect()) else {
         return Vec::new();
     };
-    let inputs = &trace.steps[at].inputs;
-    let seen: Vec<&Observed> = observed.iter().filter(|it| !it.follows(trace)).collect();
-    let label = free_label(judged);
-    let read = read_for(judged, &difference.what, about);
     let mut ranked: Vec<([usize; 6], Fact)> = Vec::new();
-    for fact in facts(trace, at) {
-        let rule = fact.rule(&label);
-        if broken_at(&rule, trace) != Some(at) {
-            continue;
-        }
-        let told: Option<Vec<usize>> = seen.iter().map(|it| it.obeys(&rule, inputs)).collect();
-        if let Some(told) = told {
-            let told: usize = told.iter().sum();
-            let reads = fact
-                .names()
-                .map(|name| read.iter().filter(|it| *it == name).count());
-            let is_idle = fact.output().is_some_and(|it| !is_state(judged, it));
-            let rank = [
-                usize::from(told == 0),
-                usize::from(!fact.is_about_any(&changed(trace, at))),
-                usize::from(is_idle),
-                usize::MAX - told,
-                fact.strangeness(),
-                usize::MAX - reads.iter().sum::<usize>(),
-            ];
-            ranked.push((rank, fact));
-        }
+    for fact in case.facts() {
+        ranked.extend(case.rank(&fact).map(|rank| (rank, fact)));
     }
     // What is left equal stays in the order of the inputs and outputs.
     ranked.sort_by_key(|(rank, _)| *rank);
-    let (mut one, mut two) = (0, 0);
+    let mut offered = [0, 0];
     let mut found = Vec::new();
     for (_, fact) in ranked {
-        let of_its_form = if fact.is_about_two() {
-            &mut two
-        } else {
-            &mut one
-        };
+        let of_its_form = &mut offered[usize::from(fact.is_about_two())];
         // Of two inputs that change together each is a reason for the same rule.
         if *of_its_form < MOST
-            && let Some(exclusion) = added(judged, &label, &fact, trace)
+            && let Some(exclusion) = case.added(&fact)
             && !found.contains(&exclusion)
         {
             *of_its_form += 1;
@@ -92,6 +69,142 @@ pub fn exclusions(judged: Judged<'_>, about: &About, observed: &[Observed]) -> V
         }
     }
     found
+}
+
+/// A sequence that is to be excluded.
+struct Case<'c> {
+    judged: Judged<'c>,
+    trace: &'c Trace,
+    /// The same, by names.
+    scans: Observed,
+    /// The last step in which an input changes.
+    at: usize,
+    /// The inputs that change in it.
+    changed: Vec<Name>,
+    /// What was seen at the plant.
+    seen: Vec<&'c Observed>,
+    /// What the rungs read that decide, once for each rung.
+    read: Vec<Name>,
+    /// How the rule is to be called.
+    label: Name,
+}
+
+impl<'c> Case<'c> {
+    fn of(
+        judged: Judged<'c>,
+        about: &About,
+        difference: &'c Difference,
+        seen: Vec<&'c Observed>,
+    ) -> Option<Self> {
+        let trace = &difference.trace;
+        let scans = Observed::of_trace(trace);
+        let changed = |at: usize| -> Vec<Name> {
+            let inputs = trace.steps[at].inputs.iter();
+            let changed = inputs.filter(
+                |(name, value)| matches!(value, Datum::Bool(on) if *on != scans.is_on(name, at)),
+            );
+            changed.map(|(name, _)| name.clone()).collect()
+        };
+        let steps = (0..trace.steps.len()).rev();
+        let mut changes = steps.map(|at| (at, changed(at)));
+        let (at, changed) = changes.find(|(_, changed)| !changed.is_empty())?;
+        Some(Self {
+            read: read_for(judged, &difference.what, about),
+            label: free_label(judged),
+            judged,
+            trace,
+            at,
+            changed,
+            seen,
+            scans,
+        })
+    }
+
+    /// The variables among these that are on or off, as they are after so many
+    /// scans.
+    fn literals(&self, values: &[(Name, Datum)], scans: usize) -> Vec<Literal> {
+        let bits = values.iter().filter(|it| matches!(it.1, Datum::Bool(_)));
+        let literals = bits.map(|(name, _)| Literal {
+            name: name.clone(),
+            on: self.scans.is_on(name, scans),
+        });
+        literals.collect()
+    }
+
+    /// All facts of two values that forbid what happens in the step, as far as
+    /// they can be looked at.
+    fn facts(&self) -> Vec<Fact> {
+        let step = &self.trace.steps[self.at];
+        let inputs = self.literals(&step.inputs, self.at + 1);
+        let outputs = self.literals(&step.ladder, self.at);
+        let mut facts = Vec::new();
+        for input in inputs.iter().filter(|it| self.changed.contains(&it.name)) {
+            let was = input.complement();
+            for other in inputs.iter().filter(|it| it.name != input.name) {
+                facts.push(Fact::NotTogether(input.clone(), other.clone()));
+                if other.on && self.scans.is_on(&other.name, self.at) {
+                    facts.push(Fact::StaysAsLongAs(was.clone(), other.clone()));
+                }
+            }
+            for output in &outputs {
+                facts.push(Fact::StaysWhile(was.clone(), output.clone()));
+            }
+        }
+        // An output may have come on in the scan before, so any input will do.
+        for input in inputs.iter().filter(|it| it.on) {
+            for output in outputs.iter().filter(|it| it.on) {
+                facts.push(Fact::NotAfter(input.clone(), output.clone()));
+            }
+        }
+        let seen: usize = self.seen.iter().map(|it| it.len()).sum();
+        facts.truncate(MOST_LOOKS / (self.scans.len() + seen).max(1));
+        facts
+    }
+
+    /// Where a fact stands among those that are offered, the least first; `None` if
+    /// it does not forbid what happens last, or was seen not to be true.
+    fn rank(&self, fact: &Fact) -> Option<[usize; 6]> {
+        let rule = fact.rule(&self.label);
+        if self.scans.breaks(&rule) != Some(self.at) {
+            return None;
+        }
+        let inputs = &self.trace.steps[self.at].inputs;
+        let told = self.seen.iter().map(|it| it.obeys(&rule, inputs));
+        let told: usize = told.sum::<Option<usize>>()?;
+        let is_read = |name: &Name| self.read.iter().filter(|it| *it == name).count();
+        let reads: usize = fact.names().into_iter().map(is_read).sum();
+        let is_idle = fact.output().is_some_and(|it| !is_state(self.judged, it));
+        Some([
+            usize::from(told == 0),
+            usize::from(!fact.is_about_any(&self.changed)),
+            usize::from(is_idle),
+            usize::MAX - told,
+            fact.strangeness(),
+            usize::MAX - reads,
+        ])
+    }
+
+    /// The rule put into the spec, if what is read from there then is broken by the
+    /// trace.
+    fn added(&self, fact: &Fact) -> Option<Exclusion> {
+        let text = &self.judged.spec.text;
+        let mut target = self.judged.spec.reading.spec.clone();
+        target.environment.push(fact.rule(&self.label));
+        let new = grafcet::rewrite(text, &target);
+        let again = grafcet::read(&new);
+        let rules = again.spec.environment.iter();
+        let rule = rules.rev().find(|rule| rule.name == self.label)?;
+        self.scans.breaks(rule)?;
+        let places = again.places.rules.iter();
+        let place = places.rev().find(|rule| rule.name == self.label)?;
+        let line = new.get(place.span.range())?;
+        let (_, rule) = line.split_once(':')?;
+        Some(Exclusion {
+            fact: fact.words(),
+            rule: rule.trim().to_owned(),
+            edits: changed(text, &new),
+        })
+    }
 }
 
 /// Whether a variable holds a state of the process, as valves do and lights do
@@ -124,101 +237,6 @@ fn read_for(judged: Judged<'_>, what: &What, about: &About) -> Vec<Name> {
     read
 }
 
-/// The last step in which an input changes.
-fn last_change(trace: &Trace) -> Option<usize> {
-    let mut steps = (0..trace.steps.len()).rev();
-    steps.find(|&at| !changed(trace, at).is_empty())
-}
-
-/// The inputs that change in a step.
-fn changed(trace: &Trace, at: usize) -> Vec<&Name> {
-    let past = before(trace, at);
-    let inputs = trace.steps[at].inputs.iter();
-    let changed = inputs.filter(|(name, value)| {
-        let is = bit(*value);
-        is.is_some_and(|on| on != in_step(past, name))
-    });
-    changed.map(|(name, _)| name).collect()
-}
-
-fn before(trace: &Trace, at: usize) -> Option<&Step> {
-    at.checked_sub(1).map(|at| &trace.steps[at])
-}
-
-/// Whether a variable is on in a step; before the first step none is.
-fn in_step(step: Option<&Step>, name: &str) -> bool {
-    let values = step
-        .into_iter()
-        .flat_map(|it| it.inputs.iter().chain(&it.ladder));
-    let mut own = values.filter(|(it, _)| **it == *name);
-    own.next().is_some_and(|(_, value)| value.is_on())
-}
-
-fn bit(value: Datum) -> Option<bool> {
-    match value {
-        Datum::Bool(on) => Some(on),
-        _ => None,
-    }
-}
-
-/// All facts of two values that forbid one of the changes in a step.
-fn facts(trace: &Trace, at: usize) -> Vec<Fact> {
-    let (now, past) = (&trace.steps[at], before(trace, at));
-    let inputs = now.inputs.iter().filter_map(|(name, value)| {
-        let on = bit(*value)?;
-        Some(Literal {
-            name: name.clone(),
-            on,
-        })
-    });
-    let inputs: Vec<Literal> = inputs.collect();
-    let outputs = now.ladder.iter().filter_map(|(name, value)| {
-        bit(*value)?;
-        Some(Literal {
-            name: name.clone(),
-            on: in_step(past, name),
-        })
-    });
-    let outputs: Vec<Literal> = outputs.collect();
-    let changed = changed(trace, at);
-    let mut facts = Vec::new();
-    for input in inputs.iter().filter(|it| changed.contains(&&it.name)) {
-        let was = Literal {
-            name: input.name.clone(),
-            on: !input.on,
-        };
-        for other in inputs.iter().filter(|it| it.name != input.name) {
-            facts.push(Fact::NotTogether(input.clone(), other.clone()));
-            if other.on && in_step(past, &other.name) {
-                facts.push(Fact::StaysAsLongAs(was.clone(), other.clone()));
-            }
-        }
-        for output in &outputs {
-            facts.push(Fact::StaysWhile(was.clone(), output.clone()));
-        }
-    }
-    // An output may have come on in the scan before, so any input will do.
-    for input in inputs.iter().filter(|it| it.on) {
-        for output in outputs.iter().filter(|it| it.on) {
-            facts.push(Fact::NotAfter(input.clone(), output.clone()));
-        }
-    }
-    facts
-}
-
-/// The first step of a trace in which a rule is broken.
-fn broken_at(rule: &EnvironmentRule, trace: &Trace) -> Option<usize> {
-    (0..trace.steps.len()).find(|&at| {
-        let past = before(trace, at);
-        let now = Some(&trace.steps[at]);
-        let (before, now) = (
-            |name: &str| Some(in_step(past, name)),
-            |name: &str| Some(in_step(now, name)),
-        );
-        obeyed(rule, &before, &now) == Obeyed::Broken
-    })
-}
-
 /// A label of the form `e8` that nothing in the spec is called by.
 fn free_label(judged: Judged<'_>) -> Name {
     let mentions = judged.spec.reading.places.mentions.iter();
@@ -226,26 +244,4 @@ fn free_label(judged: Judged<'_>) -> Name {
     let mut labels = (1..).map(|number: u32| Name::from(format!("e{number}")));
     let free = labels.find(|label| !taken.contains(label));
     free.unwrap_or_else(|| "e".into())
-}
-
-/// The rule put into the spec, if what is read from there then is broken by the
-/// trace.
-fn added(judged: Judged<'_>, label: &Name, fact: &Fact, trace: &Trace) -> Option<Exclusion> {
-    let text = &judged.spec.text;
-    let mut target = judged.spec.reading.spec.clone();
-    target.environment.push(fact.rule(label));
-    let new = grafcet::rewrite(text, &target);
-    let again = grafcet::read(&new);
-    let rules = again.spec.environment.iter();
-    let rule = rules.rev().find(|rule| rule.name == *label)?;
-    broken_at(rule, trace)?;
-    let places = again.places.rules.iter();
-    let place = places.rev().find(|rule| rule.name == *label)?;
-    let line = new.get(place.span.range())?;
-    let (_, rule) = line.split_once(':')?;
-    Some(Exclusion {
-        fact: fact.words(),
-        rule: rule.trim().to_owned(),
-        edits: crate::changed(text, &new),
-    })
 }

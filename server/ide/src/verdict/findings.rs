@@ -8,11 +8,14 @@ use logic::{Datum, Name};
 use source::{Diagnostic, Span, codes};
 
 use super::line::reason;
-use super::{About, Judged, rule_of, steps};
+use super::{About, Judged, first_of, rule_of, steps};
 use crate::change::listed;
 use crate::hover::rung_title;
 use crate::navigate::{Side, Target, driving, standing};
 use crate::{Finding, Spec, link_in_spec};
+
+/// So many outputs, inputs and other places are told of a difference.
+const MOST_NAMES: usize = 8;
 
 /// Something to say about a spec since a verdict is known.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -131,7 +134,7 @@ fn told(said: &str, difference: &Difference, found: &Verification, last: &Step) 
         .collect();
     let inputs = match on.is_empty() {
         true => "all inputs off".to_owned(),
-        false => format!("{} on", listed(&on)),
+        false => format!("{} on", listed(&first_of(&on, MOST_NAMES))),
     };
     let brief = match difference.is_brief {
         true => "; it is over after another scan with the same inputs",
@@ -150,7 +153,7 @@ fn told(said: &str, difference: &Difference, found: &Verification, last: &Step) 
 /// `v1 on and the spec has it off; h and m off and the spec has them on`.
 fn both_sides(names: &[Name], last: &Step) -> String {
     let mut groups: Vec<(String, String, Vec<Name>)> = Vec::new();
-    for name in names {
+    for name in names.iter().take(MOST_NAMES) {
         let (ladder, spec) = (
             word(value(&last.ladder, name)),
             word(value(&last.grafcet, name)),
@@ -166,7 +169,11 @@ fn both_sides(names: &[Name], last: &Step) -> String {
         let them = if names.len() == 1 { "it" } else { "them" };
         format!("{} {ladder} and the spec has {them} {spec}", listed(names))
     });
-    said.collect::<Vec<_>>().join(", and the ladder has ")
+    let said = said.collect::<Vec<_>>().join(", and the ladder has ");
+    match names.len().saturating_sub(MOST_NAMES) {
+        0 => said,
+        more => format!("{said}, and {more} more outputs differ"),
+    }
 }
 
 fn value(values: &[(Name, Datum)], name: &Name) -> Datum {
@@ -219,6 +226,7 @@ fn related(
         return Vec::new();
     };
     let word_of = |values: &[(Name, Datum)], name| word(value(values, name));
+    let names = &names[..names.len().min(MOST_NAMES)];
     let mut all = Vec::new();
     for name in names {
         let is = word_of(&last.ladder, name);

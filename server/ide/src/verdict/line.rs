@@ -5,7 +5,7 @@ use ::verification::{Difference, Reason, Timing, Verdict as Found, Verification,
 use logic::Name;
 use logic::notation::quoted;
 
-use super::{Verdict, steps};
+use super::{Verdict, first_of, steps};
 
 /// The verdict in a word: `equivalent`, `different`, `unknown`, `refused`. A
 /// violated property counts as a difference.
@@ -90,9 +90,12 @@ fn different(difference: &Difference, timing: Timing) -> String {
     }
 }
 
+/// So many names stand in a line.
+const MOST_NAMES: usize = 3;
+
 pub(super) fn names_of(names: &[Name]) -> String {
-    let names: Vec<String> = names.iter().map(|name| quoted(name)).collect();
-    names.join(", ")
+    let names: Vec<Name> = names.iter().map(|name| quoted(name).into()).collect();
+    first_of(&names, MOST_NAMES).join(", ")
 }
 
 /// Why an answer is not known, in words.

@@ -92,6 +92,14 @@ fn rule_of<'s>(spec: &'s Spec, label: &Name) -> Option<&'s RulePlace> {
     rules.find(|it| it.role == Role::Rule && it.name == *label)
 }
 
+/// The first of these names, and how many more there are: a real program has
+/// dozens of outputs, and nobody reads a line of them.
+fn first_of(names: &[Name], most: usize) -> Vec<Name> {
+    let left = names.len().saturating_sub(most);
+    let more = (left > 0).then(|| format!("{left} more").into());
+    names.iter().take(most).cloned().chain(more).collect()
+}
+
 /// `1 scan`, `5 scans`; `2 settled steps` where a step is as many as settle.
 fn steps(number: usize, timing: ::verification::Timing) -> String {
     let word = match timing {

@@ -26,7 +26,7 @@ impl Literal {
         Self { name, on: self.on }.expr()
     }
 
-    fn complement(&self) -> Self {
+    pub(super) fn complement(&self) -> Self {
         Self {
             name: self.name.clone(),
             on: !self.on,
@@ -76,8 +76,8 @@ impl Fact {
     }
 
     /// Whether it speaks of one of these.
-    pub(super) fn is_about_any(&self, names: &[&Name]) -> bool {
-        self.names().iter().any(|name| names.contains(name))
+    pub(super) fn is_about_any(&self, names: &[Name]) -> bool {
+        self.names().into_iter().any(|name| names.contains(name))
     }
 
     /// How little it says, and how likely people find it to be a fact: less is

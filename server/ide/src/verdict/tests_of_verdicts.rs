@@ -160,6 +160,27 @@ fn several_outputs_are_one_finding() {
 }
 
 #[test]
+fn of_many_outputs_the_first_are_named() {
+    let outputs: Vec<String> = (0..12).map(|at| format!("q{at}")).collect();
+    let mut ladder = "input a\n".to_owned();
+    let mut spec = format!(
+        "Step X0\nInput a\nOutput {}\nMarking X0\nSteps:\n",
+        outputs.join(", ")
+    );
+    for output in &outputs {
+        ladder += &format!("output {output}\nrung: a -> {output}\n");
+        spec += &format!("X0: 0 |- {output}\n");
+    }
+    let found = Judgement::of(&ladder, &spec);
+    assert_eq!(found.line(), "different after 1 scan: q0, q1, q2, 9 more");
+    let said = found.said().remove(0);
+    let named = "the ladder has q0, q1, q2, q3, q4, q5, q6 and q7 on and the spec has them off, and 4 \
+                 more outputs differ (scan timing)";
+    assert!(said.contains(named), "{said}");
+    assert_eq!(said.matches(" [").count(), 8 + 7, "{said}");
+}
+
+#[test]
 fn a_property_is_said_where_it_stands() {
     let spec = SPEC.replacen("Steps:", "Never:\nn1: v1*s // both\nn2: v1*/v1\nSteps:", 1);
     let found = Judgement::of(LADDER, &spec);
@@ -327,4 +348,43 @@ fn the_section_is_made_where_there_is_none_and_labels_are_free() {
         Some("e2: s |- ls2  // ls2 is on whenever s is"),
         "{new}"
     );
+}
+
+#[test]
+fn names_that_need_quotes_and_numbers_are_said_as_they_are_written() {
+    let ladder = "\
+input \"Local:1:I\"
+input Level
+output \"a b\"
+rung: \"Local:1:I\" * (Level > 5) -> \"a b\"
+";
+    let spec = "\
+Step X0
+Input \"Local:1:I\", Level
+Output \"a b\"
+Marking X0
+Steps:
+X0: \"Local:1:I\" * (Level > 7) |- \"a b\"
+";
+    let found = Judgement::of(ladder, spec);
+    assert_eq!(found.line(), "different after 1 scan: \"a b\"");
+    let said = found.said();
+    assert!(
+        said[0].starts_with(
+            "G3201 \"a b\": after 1 scan, with \"Local:1:I\" and Level=6 on, the ladder has \
+             \"a b\" on and the spec has it off (scan timing)"
+        ),
+        "{said:?}"
+    );
+    let text = found.scenario(&About::Outputs).expect("a scenario");
+    assert!(
+        text.ends_with("\non \"Local:1:I\", Level = 6 => on \"a b\"\n"),
+        "{text}"
+    );
+    for rule in found.rules(&About::Outputs, &[]) {
+        assert!(
+            rule.contains("Local:1:I") && !rule.contains("Level"),
+            "{rule}"
+        );
+    }
 }

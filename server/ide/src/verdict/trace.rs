@@ -9,15 +9,14 @@ use source::Span;
 
 use super::line::names_of;
 use super::{About, Judged, steps};
-
-/// Scans that are run at most to see that a scenario shows what it should.
-const MOST_SCANS: u64 = 100_000;
+use crate::scenario::most_scans;
 
 /// The text of a scenario that goes through the sequence and expects, at its
 /// end, what the ladder does: it passes on the ladder, and of a difference it
 /// fails on the spec. `files` are what it runs on, as seen from where it will be.
 /// `None` if there is no such sequence, or a run of it does not show the same, as
-/// where something decides that no scenario can say.
+/// where something decides that no scenario can say, or where it takes more scans
+/// than an editor runs.
 pub fn trace_scenario(judged: Judged<'_>, about: &About, files: &[String]) -> Option<String> {
     let difference = judged.difference(about)?;
     let trace = &difference.trace;
@@ -83,11 +82,12 @@ fn expected(name: &Name, last: &Step) -> Option<Expectation> {
 /// Whether a run of the scenario passes on the ladder, and of a difference fails
 /// on the spec.
 fn shows(scenario: &Scenario, judged: Judged<'_>, about: &About) -> bool {
+    let program = judged.ladder.program();
     let extent = Extent {
-        scans: MOST_SCANS,
+        scans: most_scans(program.rungs().count()),
         wanted: &|| true,
     };
-    let ladder = Some(judged.ladder.program());
+    let ladder = Some(program);
     let alone = Subject {
         ladder,
         grafcet: None,

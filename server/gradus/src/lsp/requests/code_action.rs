@@ -6,8 +6,8 @@
 use std::sync::Arc;
 
 use ide::{
-    About, Action, ActionKind, Asked, Change, Departing, Effect, Observed, Shows,
-    actions_in_ladder, actions_in_scenario, actions_in_spec, actions_on_verdict,
+    About, Action, ActionKind, Asked, Change, Departing, Effect, Shows, actions_in_ladder,
+    actions_in_scenario, actions_in_spec,
 };
 use serde::{Deserialize, Serialize};
 use serde_json::json;
@@ -18,13 +18,11 @@ use tower_lsp::ls_types::{
 };
 
 use super::command::EXPLAIN;
+use super::on_verdict;
 use super::simulate::{HIDE_SCAN, SHOW_SCAN};
 use crate::lsp::edit::Changes;
-use crate::lsp::key::{FileKey, in_folder_of};
-use crate::lsp::plant::Plant;
 use crate::lsp::publish;
 use crate::lsp::query::{Pair, Query, Text};
-use crate::lsp::verdicts::verdict;
 
 /// What an action that was not worked out yet needs to be.
 #[derive(Debug, Serialize, Deserialize)]
@@ -109,7 +107,7 @@ pub fn answer(
     let actions = match query.text()? {
         Text::Ladder(ladder) => actions_in_ladder(ladder, both.spec, asked),
         Text::Spec(spec) => {
-            let mut all = on_verdict(query, &pair, asked);
+            let mut all = on_verdict::actions(query, &pair, asked);
             all.extend(actions_in_spec(spec, both.ladder, asked));
             all
         }
@@ -207,7 +205,7 @@ fn in_protocol(
             answered.data = pending(query, work);
         }
         Effect::Scenario(about) => {
-            answered.edit = Some(trace_edit(query, pair, &action.title, &about)?);
+            answered.edit = Some(on_verdict::trace_edit(query, pair, &action.title, &about)?);
         }
     }
     Some(answered)
@@ -222,50 +220,6 @@ fn pending(query: &Query, work: Work) -> Option<serde_json::Value> {
     };
     serde_json::to_value(pending).ok()
 }
-
-/// What can be done about a difference between the spec and its ladder.
-fn on_verdict(query: &Query, pair: &Pair, asked: Asked<'_>) -> Vec<Action> {
-    let verdict = verdict(&query.world, pair);
-    let judged = verdict.as_deref().and_then(|it| pair.judged(it));
-    let observed = || {
-        let scenarios = query.world.scenarios_of(pair);
-        let seen = scenarios.iter().take(MOST_OBSERVED).filter_map(|document| {
-            let plant = Plant::of(&query.world, document)?;
-            let run = query.world.runs.run(document, document.scenario()?, &plant);
-            // Of the spec alone nobody knows what the plant's ladder did.
-            plant.pair.ladder.as_ref()?;
-            Some(Observed::of(run.simulation.as_ref()?))
-        });
-        seen.collect()
-    };
-    judged.map_or_else(Vec::new, |it| actions_on_verdict(it, &observed, asked))
-}
-
-/// Scenarios that are asked what was seen at the plant.
-const MOST_OBSERVED: usize = 32;
-
-/// The edit that makes a scenario of a sequence, beside the spec.
-fn trace_edit(query: &Query, pair: &Pair, title: &str, about: &About) -> Option<WorkspaceEdit> {
-    let verdict = verdict(&query.world, pair)?;
-    let (ladder, spec) = (pair.ladder.as_ref()?, pair.spec.as_ref()?);
-    let files = [ladder.key.name(), spec.key.name()];
-    let text = ide::trace_scenario(pair.judged(&verdict)?, about, &files)?;
-    let name = spec.key.name();
-    let stem = name.rsplit_once('.').map_or(&*name, |(stem, _)| stem);
-    let mut places = (1..MOST_NAMES)
-        .filter_map(|number| in_folder_of(&spec.uri, &ide::trace_name(stem, number)));
-    let is_free = |uri: &Uri| {
-        let key = FileKey::of(uri);
-        let on_disk = key.path().is_some_and(std::path::Path::exists);
-        !on_disk && !query.world.open.contains_key(&key)
-    };
-    let mut edit = Changes::new(title);
-    edit.create(places.find(is_free)?, text);
-    Some(edit.workspace_edit(&query.world))
-}
-
-/// Names that are tried for a new scenario.
-const MOST_NAMES: u32 = 1_000;
 
 /// The action with what it changes. `None` if the document has moved on.
 pub fn resolve(query: &Query, pending: &Pending, mut action: CodeAction) -> Option<CodeAction> {
@@ -284,10 +238,15 @@ pub fn resolve(query: &Query, pending: &Pending, mut action: CodeAction) -> Opti
             spec_edit(query, &pair, &action.title, &changes?, departing)
         }
         // The ladder may have changed since, and its difference with it.
-        Work::TraceOfOutputs => Some(trace_edit(query, &pair, &action.title, &About::Outputs)?),
+        Work::TraceOfOutputs => Some(on_verdict::trace_edit(
+            query,
+            &pair,
+            &action.title,
+            &About::Outputs,
+        )?),
         Work::TraceOfProperty(label) => {
             let about = About::Property(label.as_str().into());
-            Some(trace_edit(query, &pair, &action.title, &about)?)
+            Some(on_verdict::trace_edit(query, &pair, &action.title, &about)?)
         }
     };
     Some(action)

@@ -14,6 +14,7 @@ pub mod hover;
 pub mod inlay_hint;
 pub mod inline_completion;
 pub mod link;
+mod on_verdict;
 pub mod references;
 pub mod rename;
 pub mod selection;
