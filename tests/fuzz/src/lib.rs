@@ -6,6 +6,8 @@
 //! A target in `targets` is one call of one of them.
 
 mod rules;
+mod running;
+mod scenarios;
 
 #[path = "../../../server/ladder/tests/hostile/places.rs"]
 mod places;
@@ -15,6 +17,8 @@ use logic::notation::{self, Lexer};
 use logic::{Atoms, Budget, Expr, Function};
 
 pub use rules::keeps_rules;
+pub use running::{evolves, verifies};
+pub use scenarios::{keeps_scenarios, runs_scenarios};
 
 /// Reads `bytes` as `format`: as they are if they are recognised as such, else
 /// behind the few words that make a reader take them for its own.
@@ -104,6 +108,11 @@ pub fn recovers(bytes: &[u8]) {
     let text = grafcet::write(&spec);
     let read = grafcet::read(&text);
     assert_eq!(grafcet::write(&read.spec), text, "{:?}", read.diagnostics);
+}
+
+/// The two texts before and after a line of `=`.
+fn halves(bytes: &[u8]) -> Option<(&str, &str)> {
+    std::str::from_utf8(bytes).ok()?.split_once("\n====\n")
 }
 
 /// Little enough that no input takes long.

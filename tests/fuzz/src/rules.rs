@@ -25,7 +25,8 @@ pub fn keeps_rules(bytes: &[u8]) {
     assert!(back.spec.says_the_same(&reading.spec), "written: {written}");
 }
 
-fn are_inside(text: &str, it: &Diagnostic) {
+/// Every place of a finding lies in the text.
+pub(crate) fn are_inside(text: &str, it: &Diagnostic) {
     let is_inside = |span: Span| text.get(span.range()).is_some();
     assert!(is_inside(it.span), "outside: {it:?}");
     assert!(it.related.iter().all(|related| is_inside(related.span)), "outside: {it:?}");
