@@ -40,7 +40,33 @@ pub fn verdict_findings(judged: Judged<'_>) -> Vec<VerdictFinding> {
     for (label, verdict) in &found.properties {
         all.extend(property(judged, found, label, verdict));
     }
+    all.extend(
+        found
+            .deadlock
+            .map(|most| overdone(judged.spec, most, found)),
+    );
     all
+}
+
+/// That the environment rules allow so little that a proof under them says
+/// little.
+fn overdone(spec: &Spec, most: usize, found: &Verification) -> VerdictFinding {
+    let rules = spec.reading.spec.environment.iter();
+    let last = rules.map(|it| rule_place(spec, &it.name)).max();
+    let message = format!(
+        "the environment rules allow no sequence of more than {}, so what is proved under them \
+         says little",
+        steps(most, found.timing)
+    );
+    let help = "look for rules that contradict each other, or what the plant does at its start";
+    let span = last.unwrap_or_else(|| head(spec));
+    VerdictFinding {
+        finding: Finding {
+            diagnostic: Diagnostic::new(codes::VERDICT_UNKNOWN, span, message).help(help),
+            related: Vec::new(),
+        },
+        about: None,
+    }
 }
 
 fn outputs(judged: Judged<'_>, found: &Verification) -> Option<VerdictFinding> {

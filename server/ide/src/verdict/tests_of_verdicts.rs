@@ -199,6 +199,27 @@ fn a_property_is_said_where_it_stands() {
 }
 
 #[test]
+fn rules_that_allow_nothing_are_said_to() {
+    let spec = SPEC.replacen(
+        "Steps:",
+        "Environment:\ne1: /s |- @(s*ls2)\ne2: ls2 |- /s\nSteps:",
+        1,
+    );
+    let found = Judgement::of(LADDER, &spec);
+    assert_eq!(
+        found.line(),
+        "equivalent under 2 rules, which allow no more than 0 scans (scan timing)"
+    );
+    assert_eq!(
+        found.said(),
+        [
+            "G3203 e2: ls2 |- /s: the environment rules allow no sequence of more than 0 scans, so \
+             what is proved under them says little"
+        ]
+    );
+}
+
+#[test]
 fn a_circle_is_said_at_a_step_of_it() {
     let found = Judgement::of(LADDER, &SPEC.replacen("X0*s*/ls2", "X0*s", 1));
     assert_eq!(
