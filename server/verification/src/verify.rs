@@ -1,5 +1,7 @@
 //! The question, and its answer.
 
+use std::collections::HashSet;
+
 use grafcet::Spec;
 use grafcet::evolution::Unstable;
 use ladder::{Class, Program};
@@ -249,7 +251,7 @@ impl<'v> Verifier<'v> {
     fn absent(&self, system: &System) -> Vec<Name> {
         let resolved = |name: &Name| self.followed.resolved(name);
         let known = system.outputs.iter().chain(&system.numbers);
-        let known: Vec<Name> = known.map(resolved).collect();
+        let known: HashSet<Name> = known.map(resolved).collect();
         let declared = self.program.declarations.iter();
         let outputs =
             declared.filter(|it| it.class == Class::Output && self.followed.writes(&it.name));
