@@ -304,10 +304,7 @@ impl<'v> Verifier<'v> {
             },
             Found::Different(found) => {
                 let is_shortest = found.is_shortest();
-                let cancel = &self.limits.cancel;
-                let simple = simplified(&frame.netlist, &found.trace, &bad, cancel);
-                for signals in [&simple, &found.trace] {
-                    let ((trace, end), mut run) = self.replayed(system, signals);
+                for ((trace, end), mut run) in self.replays(system, &found.trace, &bad) {
                     let what = match end {
                         End::Steps(names) if !names.is_empty() => What::Outputs(names),
                         End::Steps(_) => continue,
@@ -375,10 +372,7 @@ impl<'v> Verifier<'v> {
             },
             Found::Different(found) => {
                 let is_shortest = found.is_shortest();
-                let cancel = &self.limits.cancel;
-                let simple = simplified(&system.frame.netlist, &found.trace, &[bad], cancel);
-                for signals in [&simple, &found.trace] {
-                    let ((trace, end), mut run) = self.replayed(system, signals);
+                for ((trace, end), mut run) in self.replays(system, &found.trace, &[bad]) {
                     let condition = &self.spec.never[at].condition;
                     if matches!(end, End::Steps(_)) && run.holds(condition) {
                         run.after_another();
@@ -404,6 +398,19 @@ impl<'v> Verifier<'v> {
                 false => Reason::Unconfirmed,
             },
         }
+    }
+
+    /// What comes of a trace with no change of an input that is not needed, and of
+    /// the trace as it was found.
+    fn replays<'s>(
+        &'s self,
+        system: &'s System,
+        found: &proof::Trace,
+        bad: &[Signal],
+    ) -> impl Iterator<Item = ((Trace, End), Run<'s>)> {
+        let simple = simplified(&system.frame.netlist, found, bad, &self.limits.cancel);
+        let both = [simple, found.clone()].into_iter();
+        both.map(|signals| self.replayed(system, &signals))
     }
 
     fn replayed<'s>(
