@@ -20,7 +20,8 @@ pub struct Limits {
     pub nodes: usize,
     /// The longest sequence that is tried, in scans.
     pub scans: usize,
-    /// Obeyed within a few milliseconds.
+    /// Obeyed within milliseconds; in systems of a million gates within some tenths
+    /// of a second.
     pub cancel: Cancel,
 }
 

@@ -1,5 +1,7 @@
 //! The question, and its answer.
 
+use std::collections::HashSet;
+
 use grafcet::Spec;
 use grafcet::evolution::Unstable;
 use ladder::{Class, Program};
@@ -254,7 +256,7 @@ impl<'v> Verifier<'v> {
     fn absent(&self, system: &System) -> Vec<Name> {
         let resolved = |name: &Name| self.followed.resolved(name);
         let known = system.outputs.iter().chain(&system.numbers);
-        let known: Vec<Name> = known.map(resolved).collect();
+        let known: HashSet<Name> = known.map(resolved).collect();
         let declared = self.program.declarations.iter();
         let outputs =
             declared.filter(|it| it.class == Class::Output && self.followed.writes(&it.name));
@@ -307,10 +309,7 @@ impl<'v> Verifier<'v> {
             },
             Found::Different(found) => {
                 let is_shortest = found.is_shortest();
-                let cancel = &self.limits.cancel;
-                let simple = simplified(&frame.netlist, &found.trace, &bad, MOST_WORK, cancel);
-                for signals in [&simple, &found.trace] {
-                    let ((trace, end), mut run) = self.replayed(system, signals);
+                for ((trace, end), mut run) in self.replays(system, &found.trace, &bad) {
                     let what = match end {
                         End::Steps(names) if !names.is_empty() => What::Outputs(names),
                         End::Steps(_) => continue,
@@ -378,11 +377,7 @@ impl<'v> Verifier<'v> {
             },
             Found::Different(found) => {
                 let is_shortest = found.is_shortest();
-                let cancel = &self.limits.cancel;
-                let netlist = &system.frame.netlist;
-                let simple = simplified(netlist, &found.trace, &[bad], MOST_WORK, cancel);
-                for signals in [&simple, &found.trace] {
-                    let ((trace, end), mut run) = self.replayed(system, signals);
+                for ((trace, end), mut run) in self.replays(system, &found.trace, &[bad]) {
                     let condition = &self.spec.never[at].condition;
                     if matches!(end, End::Steps(_)) && run.holds(condition) {
                         run.after_another();
@@ -408,6 +403,20 @@ impl<'v> Verifier<'v> {
                 false => Reason::Unconfirmed,
             },
         }
+    }
+
+    /// What comes of a trace with no change of an input that is not needed, and of
+    /// the trace as it was found.
+    fn replays<'s>(
+        &'s self,
+        system: &'s System,
+        found: &proof::Trace,
+        bad: &[Signal],
+    ) -> impl Iterator<Item = ((Trace, End), Run<'s>)> {
+        let (netlist, cancel) = (&system.frame.netlist, &self.limits.cancel);
+        let simple = simplified(netlist, found, bad, MOST_WORK, cancel);
+        let both = [simple, found.clone()].into_iter();
+        both.map(|signals| self.replayed(system, &signals))
     }
 
     fn replayed<'s>(

@@ -1,6 +1,7 @@
 //! The tank of the case study and its sequence: translated, proved equal, and
 //! told apart where a rule is missing.
 
+use bench::questions::tank_files;
 use criterion::{Criterion, criterion_group, criterion_main};
 use logic::Budget;
 use proof::{Limits, check};
@@ -9,14 +10,7 @@ use verification::witness::sights;
 use verification::{Timing, Verdict, verify};
 
 fn verification(criterion: &mut Criterion) {
-    let text = |name: &str| {
-        let path = end_to_end::path(&format!("fixtures/neutralization/{name}"));
-        std::fs::read_to_string(path).expect("a fixture")
-    };
-    let program = ladder::read(text("neutralization.ladder").as_bytes()).program;
-    let spec = grafcet::read(&text("sequence.grafcet")).spec;
-    let mut without = spec.clone();
-    without.environment.retain(|rule| &*rule.name != "e6");
+    let (program, [spec, without]) = tank_files();
     let limits = Limits::default();
     let both = |spec| verify(&program, spec, Timing::Scan, &limits).expect("a translation");
     assert!(matches!(both(&spec).verdict, Verdict::Equivalent));

@@ -1,5 +1,9 @@
 //! The questions that proof engines are compared on.
 
+use std::sync::Arc;
+
+use grafcet::Spec;
+use ladder::Program;
 use proof::{Netlist, compare};
 use verification::program::{Bounds, follow};
 use verification::{Timing, verify};
@@ -51,10 +55,9 @@ pub fn rows(latches: usize, encoding: Encoding, coupling: Coupling) -> Question 
     }
 }
 
-/// The tank of the case study and its sequence, equal under seven rules about
-/// the plant; and without one of them. What is compared for others is whether
-/// the question's properties, 0 where a rule is broken, differ from 0.
-pub fn tank() -> Question {
+/// The ladder of the case study's tank, its sequence, and the sequence without the
+/// last but one of its rules about the plant.
+pub fn tank_files() -> (Arc<Program>, [Spec; 2]) {
     let text = |name: &str| {
         let path = end_to_end::path(&format!("fixtures/neutralization/{name}"));
         std::fs::read_to_string(path).expect("a fixture")
@@ -63,6 +66,14 @@ pub fn tank() -> Question {
     let spec = grafcet::read(&text("sequence.grafcet")).spec;
     let mut without = spec.clone();
     without.environment.retain(|rule| &*rule.name != "e6");
+    (program, [spec, without])
+}
+
+/// The tank of the case study and its sequence, equal under seven rules about
+/// the plant; and without one of them. What is compared for others is whether
+/// the question's properties, 0 where a rule is broken, differ from 0.
+pub fn tank() -> Question {
+    let (program, [spec, without]) = tank_files();
     let asked = |spec| {
         let found = verify(&program, spec, Timing::Scan, &proof::Limits::default());
         found.expect("a translation").question

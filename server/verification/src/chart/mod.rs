@@ -61,7 +61,9 @@ pub fn follow(
     evolutions: usize,
     bounds: &Bounds,
 ) -> Result<Evolved, Refusal> {
+    bounds.is_wanted()?;
     let net = Net::of(&spec.grafcet);
+    bounds.is_wanted()?;
     let start = Machine::new(&spec.grafcet);
     let initial: Vec<bool> = net
         .steps
@@ -77,9 +79,7 @@ pub fn follow(
     }
     let mut domains: Domains = vec![vec![Datum::default()]; net.variables.len()];
     for _ in 0..MOST_PASSES {
-        if bounds.cancel.is_cancelled() {
-            return Err(Refusal::Cancelled);
-        }
+        bounds.is_wanted()?;
         let mut pass = Pass {
             net: &net,
             ladder,

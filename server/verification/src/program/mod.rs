@@ -82,12 +82,18 @@ impl Default for Bounds {
 impl Bounds {
     /// Stops if somebody asked to, or if more has been made than is allowed.
     pub(crate) fn look(&self, netlist: &Netlist) -> Result<(), Refusal> {
-        if self.cancel.is_cancelled() {
-            Err(Refusal::Cancelled)
-        } else if netlist.size() > self.gates {
-            Err(Refusal::TooLarge)
-        } else {
-            Ok(())
+        self.is_wanted()?;
+        match netlist.size() > self.gates {
+            true => Err(Refusal::TooLarge),
+            false => Ok(()),
+        }
+    }
+
+    /// Stops if somebody asked to.
+    pub(crate) fn is_wanted(&self) -> Result<(), Refusal> {
+        match self.cancel.is_cancelled() {
+            true => Err(Refusal::Cancelled),
+            false => Ok(()),
         }
     }
 }
@@ -100,7 +106,9 @@ pub fn follow(
     bounds: &Bounds,
 ) -> Result<Followed, Refusal> {
     let machine = Machine::new(program);
+    bounds.is_wanted()?;
     let given = given(program, &machine);
+    bounds.is_wanted()?;
     let (orders, first_scan) = (orders(program, &machine)?, machine.first_scan());
     let looks_at_first_scan = reads(program, first_scan);
     let mut knowledge = Knowledge::default();

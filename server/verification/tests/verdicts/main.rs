@@ -1,5 +1,6 @@
 //! Verdicts about ladders and their specs.
 
+mod corpus;
 mod limits;
 mod neutralization;
 mod product;

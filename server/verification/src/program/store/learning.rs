@@ -1,0 +1,122 @@
+//! What a pass finds out about the values that variables can have.
+
+use logic::{Datum, Name};
+use proof::Signal;
+
+use super::{Kept, Store};
+use crate::program::Bounds;
+use crate::program::knowledge::Domain;
+use crate::refusal::Refusal;
+use crate::value::Value;
+
+/// So many nodes are walked over in the time in which one is made.
+const WALKED: usize = 16;
+
+impl Store<'_> {
+    pub(super) fn note_write(&mut self, name: &Name, value: &Value) {
+        let is_new = !self.is_written(name);
+        let initial = self.initially(name);
+        self.knowledge.writes(name, initial);
+        if self.bits_of.contains(name) {
+            self.knowledge.looks_at_whole(name);
+        }
+        self.knowledge_of_whole(name);
+        // What is written in one stroke can be had: the rest is found by
+        // following the scan.
+        if is_new {
+            for (value, _) in value.cases() {
+                self.knowledge.holds(name, *value);
+            }
+        }
+    }
+
+    /// Notes that something else than a timer or counter writes the variable.
+    pub(in crate::program) fn note_by_hand(&mut self, name: &str) {
+        let name = self.names.resolved(name, &|_| None).into_owned();
+        self.knowledge.writes_by_hand(&name.into());
+    }
+
+    /// Ends the scan: what variables hold is what the next one begins with.
+    pub(in crate::program) fn end(&mut self, bounds: &Bounds) -> Result<(), Refusal> {
+        for Kept {
+            variable,
+            value,
+            latch,
+        } in std::mem::take(&mut self.kept)
+        {
+            let after = self.now.get(&variable);
+            let mut cases = after.map_or(&[][..], Value::cases).iter();
+            let next = cases.find(|(it, _)| it.key() == value.key());
+            let next = next.map_or(Signal::FALSE, |(_, when)| *when);
+            self.net.set_next(latch, next);
+            self.kept.push(Kept {
+                variable,
+                value,
+                latch,
+            });
+        }
+        let written: Vec<Name> = self.knowledge.written.keys().cloned().collect();
+        for name in written {
+            match self.now.get(&name).cloned() {
+                Some(Value::Unknown(_)) => self.knowledge.loses(&name),
+                Some(Value::Known(cases)) => self.note_values(&name, &cases, bounds)?,
+                None => {}
+            }
+        }
+        Ok(())
+    }
+
+    /// Notes the values that a variable can have at the end of a scan, for each
+    /// that it can have at its beginning: a step register goes on from one step
+    /// to the next, and only as far as its rungs say.
+    fn note_values(
+        &mut self,
+        name: &Name,
+        cases: &[(Datum, Signal)],
+        bounds: &Bounds,
+    ) -> Result<(), Refusal> {
+        let domain = match self.knowledge.written.get(name) {
+            Some(Domain::Values(values)) => values.clone(),
+            _ => return Ok(()),
+        };
+        let is_new = |value: &Datum| domain.iter().all(|known| known.key() != value.key());
+        let new = cases.iter().filter(|(value, _)| is_new(value));
+        let mut new: Vec<(Datum, Signal)> = new.copied().collect();
+        let is_bit = |value: &Datum| matches!(value, Datum::Bool(_));
+        if !new.iter().all(|(value, _)| is_bit(value)) && domain.len() > 1 {
+            self.keep_possible(name, &mut new, bounds)?;
+        }
+        if !new.is_empty() {
+            self.knowledge.grows(name);
+        }
+        for (value, _) in new {
+            self.knowledge.holds(name, value);
+        }
+        Ok(())
+    }
+
+    /// Keeps the cases that are not plainly impossible for every value that the
+    /// variable can have when the scan begins.
+    fn keep_possible(
+        &mut self,
+        name: &Name,
+        cases: &mut Vec<(Datum, Signal)>,
+        bounds: &Bounds,
+    ) -> Result<(), Refusal> {
+        let own = self.kept.iter().filter(|it| it.variable == *name);
+        let own: Vec<Signal> = own.map(|it| it.latch).collect();
+        let mut is_possible = vec![false; cases.len()];
+        for chosen in &own {
+            bounds.look(&self.net)?;
+            self.tried += self.net.size() / WALKED;
+            let leaves = own.iter().map(|latch| (*latch, latch == chosen));
+            let known = self.net.suppose(leaves);
+            for ((_, when), possible) in cases.iter().zip(&mut is_possible) {
+                *possible |= known.of(*when) != Some(false);
+            }
+        }
+        let mut possible = is_possible.into_iter();
+        cases.retain(|_| possible.next().unwrap_or(true));
+        Ok(())
+    }
+}
