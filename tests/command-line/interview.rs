@@ -16,8 +16,11 @@ fn tank() -> Gradus {
     gradus
 }
 
+/// Without a search for sequences, so that suggestions come as conditions rank
+/// them.
 fn start(gradus: &Gradus) -> Terminal {
-    Terminal::start(gradus.command(&["convert", "tank.ladder", "--interactive"]))
+    let args = ["convert", "tank.ladder", "--interactive", "--effort", "0"];
+    Terminal::start(gradus.command(&args))
 }
 
 fn decisions(gradus: &Gradus) -> Vec<String> {
@@ -51,6 +54,19 @@ fn a_question_shows_the_condition_and_the_evidence() {
     terminal.type_line("q");
     assert_eq!(terminal.end().0, Some(0));
     assert_eq!(decisions(&gradus), [""; 0]);
+}
+
+#[test]
+fn a_question_shows_the_sequence_in_which_it_was_seen() {
+    let gradus = tank();
+    let mut terminal =
+        Terminal::start(gradus.command(&["convert", "tank.ladder", "--interactive"]));
+    let shown = terminal.wait_for(PROMPT).replace("\r\n", "\n");
+    assert!(shown.contains("5 suggestions, of 30 open"), "{shown}");
+    let expected = "  when ls2*/ls3*/as\n  seen after on s; on ls2\n";
+    assert!(shown.contains(expected), "{shown}");
+    terminal.type_line("q");
+    assert_eq!(terminal.end().0, Some(0));
 }
 
 #[test]

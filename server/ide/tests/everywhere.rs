@@ -222,15 +222,17 @@ fn scenarios_answer_everywhere() {
     let budget = Budget::default();
     let mut renamed = 0;
     for (path, text) in texts(&["scenario"]) {
+        // The hostile ones have nothing that they could run on.
         let ladder = fs::read_to_string(path.with_file_name("neutralization.ladder"));
-        let ladder = Ladder::read(ladder.expect("the ladder").into(), &budget);
+        let ladder = ladder.ok().map(|it| Ladder::read(it.into(), &budget));
         let pair = Pair {
-            ladder: Some(&ladder),
+            ladder: ladder.as_ref(),
             spec: None,
         };
         let scenario = Scenario::read(text.as_str().into());
         let run = Run::new(&scenario, pair, &|| true);
-        assert!(run.simulation.is_some(), "{}", path.display());
+        let runs = run.simulation.is_some();
+        assert_eq!(runs, ladder.is_some(), "{}", path.display());
         asked_whole(&scenario, pair, &run);
         for offset in (0..=text.len()).step_by(3) {
             renamed += asked_at(&scenario, pair, &run, offset);

@@ -99,6 +99,10 @@ impl<'n> Induction<'n> {
         meter: &mut Meter,
     ) -> Result<Vec<usize>, Why> {
         let mut part = open.to_vec();
+        // Their sum may be plain where they are not.
+        for &at in &part {
+            self.solver.watch(&self.graph, last[at], meter)?;
+        }
         loop {
             let supposed: Vec<Signal> = part.iter().map(|&at| self.supposed[at]).collect();
             let bad: Vec<Signal> = part.iter().map(|&at| last[at]).collect();

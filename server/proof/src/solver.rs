@@ -71,6 +71,12 @@ impl Solver {
         Ok(())
     }
 
+    /// Has the next answers tell the value of `signal`, whether the question needs
+    /// it or not.
+    pub fn watch(&mut self, graph: &Graph, signal: Signal, meter: &mut Meter) -> Result<(), Why> {
+        self.literal(graph, signal, meter).map(drop)
+    }
+
     /// Whether all of `signals` can be 1 together with what was asserted.
     pub fn ask(
         &mut self,

@@ -181,6 +181,19 @@ proptest! {
     }
 }
 
+#[test]
+fn induction_ends_where_one_of_two_properties_is_always_violated() {
+    let mut netlist = Netlist::default();
+    let on = netlist.input("on");
+    netlist.never("on", on);
+    netlist.never("off", !on);
+    let framing = Framing::new(&netlist);
+    let classes = Classes::alone(netlist.size());
+    let mut induction = Induction::new(&framing, &classes);
+    let proved = induction.advance(&[0, 1], &mut meter());
+    assert_eq!(proved, Ok(Vec::new()));
+}
+
 /// The share of equal pairs that each way to prove them can do alone: a way
 /// that proves nothing would pass every other test.
 #[test]

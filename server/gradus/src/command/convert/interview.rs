@@ -174,7 +174,11 @@ fn question(succession: &Succession, conversion: &Conversion<'_>) -> String {
     let condition = condition
         .as_deref()
         .unwrap_or("a condition too long to show");
-    text + &format!("\n  when {}\n", broken(&printable(condition), 7))
+    text += &format!("\n  when {}\n", broken(&printable(condition), 7));
+    if let Some(witness) = &succession.witness {
+        text += &format!("  seen after {}\n", printable(&witness.in_words()));
+    }
+    text
 }
 
 /// Asks until there is an answer. The end of input is one.
