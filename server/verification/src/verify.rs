@@ -7,7 +7,8 @@ use grafcet::evolution::Unstable;
 use ladder::{Class, Program};
 use logic::Name;
 use proof::{
-    Gates, Limits, Netlist, Proof, Signal, Status, Verdict as Found, Why, check, simplified,
+    Gates, Limits, Netlist, Proof, Signal, Status, Verdict as Found, Why, check, deadlock,
+    simplified,
 };
 
 use crate::chart::{self, Evolved};
@@ -47,6 +48,10 @@ const RESTLESS: &str = "(restless)";
 /// A scan of a grafcet is followed through this many evolutions, a settling of
 /// both sides through this many scans, at most.
 const MOST_ROUNDS: usize = 256;
+
+/// Environment rules that allow so many steps are taken not to contradict each
+/// other: a rule speaks of two.
+const MOST_ALLOWED: usize = 20;
 
 /// So many gates are evaluated to make a trace simpler.
 const MOST_WORK: usize = 200_000_000;
@@ -354,14 +359,16 @@ impl<'v> Verifier<'v> {
                 Status::Holds(proof) => Some(*proof),
                 _ => None,
             });
-        let (mut states, mut deadlock) = (None, None);
-        for proof in proofs {
-            match proof {
-                Proof::Reachability { states: counted } => states = states.max(counted),
-                Proof::Deadlock(steps) => deadlock = deadlock.max(Some(steps)),
-                _ => {}
-            }
-        }
+        let counted = proofs.filter_map(|proof| match proof {
+            Proof::Reachability { states } => states,
+            _ => None,
+        });
+        let states = counted.max();
+        let deadlock = match verdict {
+            Verdict::Equivalent => deadlock(&asked, MOST_ALLOWED, self.limits),
+            _ => Ok(None),
+        };
+        let deadlock = deadlock.map_err(|_| Refusal::Cancelled)?;
         Ok(Some((verdict, states, deadlock)))
     }
 

@@ -16,6 +16,7 @@ use tower_lsp::ls_types::Uri;
 use verification::witness::sights;
 
 use super::document::Document;
+use super::key::FileKey;
 use super::progress::{self, Work};
 use super::query::{Pair, elsewhere};
 use super::server::Shared;
@@ -30,25 +31,21 @@ pub const SEARCH: &str = "gradus.search";
 const EFFORT: u64 = 2_000;
 
 /// Searches for the ladder that the ladder or spec at an address belongs to.
-pub async fn asked(shared: &Arc<Shared>, uri: &Uri) -> Result<Value> {
+pub async fn asked(shared: &Arc<Shared>, uri: Uri) -> Result<Value> {
     let world = shared.state.world();
-    let nothing = || {
-        let what = format!("{} belongs to no ladder that is open", uri.as_str());
-        Error::invalid_params(what)
-    };
-    let document = world.document(uri).ok_or_else(nothing)?;
-    let pair = Pair::of(&world, &document);
-    let document = pair.ladder.clone().ok_or_else(nothing)?;
-    let open = world.open.get(&document.key);
-    if !open.is_some_and(|open| Arc::ptr_eq(open, &document)) {
-        return Err(nothing());
-    }
     let stopped = Cancel::default();
-    let under_way = progress::under_way(
-        shared,
-        Work::Sequences(document.key.name(), stopped.clone()),
-    );
+    let name = FileKey::of(&uri).name();
+    let work = Work::Sequences(name, stopped.clone());
+    let under_way = progress::under_way(shared, work);
     let searched = elsewhere(move |dropped| {
+        let nothing = || format!("{} belongs to no ladder that is open", uri.as_str());
+        let document = world.document(&uri).ok_or_else(nothing)?;
+        let pair = Pair::of(&world, &document);
+        let document = pair.ladder.clone().ok_or_else(nothing)?;
+        let open = world.open.get(&document.key);
+        if !open.is_some_and(|open| Arc::ptr_eq(open, &document)) {
+            return Err(nothing());
+        }
         let of_document = Arc::clone(&document);
         let limits = Limits {
             steps: EFFORT.saturating_mul(1_000_000),

@@ -380,7 +380,7 @@ impl LanguageServer for Server {
                 telling::choose(&self.shared, None);
                 Ok(None)
             }
-            Command::Search(uri) => searching::asked(&self.shared, &uri).await.map(Some),
+            Command::Search(uri) => searching::asked(&self.shared, uri).await.map(Some),
             Command::Verify(uri) => {
                 let what = format!("{} belongs to no ladder with a spec", uri.as_str());
                 let found = proving::asked(&self.shared, uri).await?;

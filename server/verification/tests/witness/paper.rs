@@ -119,10 +119,11 @@ fn the_page_says_how_many_of_the_first_thirteen_happen() {
         let hits = hits.count();
         let percent = |of: usize| (200 * hits + of) / (2 * of);
         let row = format!(
-            "| {plant} | {} | {hits} | {} % | {} % |",
+            "| {plant} | {} | {hits} | {} % | {} % | {} % |",
             ranked.len(),
             percent(AT),
             percent(of_states),
+            percent(occurring.len()),
         );
         assert!(page.contains(&row), "docs/witnesses.md should say\n{row}");
     }
