@@ -7,6 +7,7 @@
 //! difference, or that there never is; and each side is exported by itself, for
 //! ABC to compare.
 
+mod fixtures;
 mod sketch;
 #[path = "../../../proof/tests/judge/tool.rs"]
 mod tool;
