@@ -9,10 +9,10 @@ use crate::{Limits, Netlist, Why};
 /// What is proved under constraints that allow nothing is worth nothing, so who
 /// proves something should ask this too.
 pub fn deadlock(netlist: &Netlist, most: usize, limits: &Limits) -> Result<Option<usize>, Why> {
-    let environment = netlist.cone(&[]).netlist;
-    if environment.constraints().is_empty() {
+    if netlist.constraints().is_empty() {
         return Ok(None);
     }
+    let environment = netlist.cone(&[]).netlist;
     let mut meter = Meter::new(limits, limits.steps);
     let mut bounded = Bounded::new(&environment);
     while bounded.clean < most {
