@@ -36,6 +36,16 @@ struct Subject<'s> {
     budget: &'s Budget,
 }
 
+impl<'s> Subject<'s> {
+    fn new(program: &'s Program, conditions: &'s Conditions, budget: &'s Budget) -> Self {
+        Self {
+            program,
+            conditions,
+            budget,
+        }
+    }
+}
+
 /// What the conditions of a program reveal.
 #[derive(Debug, Default)]
 pub struct Findings {
@@ -71,11 +81,7 @@ impl Findings {
         earlier: Option<&Self>,
         budget: &Budget,
     ) -> Self {
-        let subject = Subject {
-            program,
-            conditions,
-            budget,
-        };
+        let subject = Subject::new(program, conditions, budget);
         let mut of_variables = earlier.map_or_else(OrdMap::new, |it| it.of_variables.clone());
         let gone = of_variables
             .keys()
@@ -100,11 +106,7 @@ impl Findings {
         conditions: &Conditions,
         budget: &Budget,
     ) -> Self {
-        let subject = Subject {
-            program,
-            conditions,
-            budget,
-        };
+        let subject = Subject::new(program, conditions, budget);
         let locked_by = |variable: &Arc<Variable>| variable.closed_contacts.clone();
         let was = touched
             .iter()
