@@ -1,4 +1,4 @@
-use logic::Name;
+use logic::{Cancel, Name};
 
 use crate::bounded::{Bounded, Scan};
 use crate::classes::Classes;
@@ -116,19 +116,19 @@ impl<'n> Checking<'n> {
         let mut cores = Vec::with_capacity(parts.len());
         for part in &parts {
             self.look()?;
-            cores.push(part.core(&self.status));
+            cores.push(part.core(&self.status, &self.limits.cancel)?);
         }
-        let core = joined(&cores);
-        self.look()?;
-        let framings: Vec<Framing<'_>> = parts
-            .iter()
-            .map(|part| Framing::new(&part.cone.netlist))
-            .collect();
-        let mut inductions: Vec<Induction<'_>> = parts
-            .iter()
-            .zip(&framings)
-            .map(|(part, framing)| Induction::new(framing, &part.classes))
-            .collect();
+        let core = joined(&cores, &self.limits.cancel)?;
+        let mut framings = Vec::with_capacity(parts.len());
+        for part in &parts {
+            self.look()?;
+            framings.push(Framing::new(&part.cone.netlist));
+        }
+        let mut inductions = Vec::with_capacity(parts.len());
+        for (part, framing) in parts.iter().zip(&framings) {
+            self.look()?;
+            inductions.push(Induction::new(framing, &part.classes));
+        }
         let mut enumeration = Enumeration::new(&cores);
         let mut bounded = Bounded::new(&core.netlist);
         let mut steps = TURN.max(A_NODE * core.netlist.size() as u64);
@@ -155,16 +155,16 @@ impl<'n> Checking<'n> {
 
     /// The parts that have nothing to do with each other, each by itself.
     fn simplified_parts(&mut self) -> Result<Vec<Part>, Why> {
-        self.look()?;
-        let cone = self.netlist.cone(&self.open());
-        self.look()?;
-        let components = components(&cone.netlist);
+        let cancel = &self.limits.cancel;
+        let cone = self.netlist.cone(&self.open(), cancel)?;
+        let components = components(&cone.netlist, cancel)?;
         let mut parts = Vec::new();
         let alone = Classes::alone(cone.netlist.size());
         let mut cutter = Cutter::new(&cone.netlist, &alone);
         for (at, component) in components.iter().enumerate() {
             self.look()?;
-            let part = cone.within(cutter.cut(&component.properties, &component.constraints));
+            let part = cutter.cut(&component.properties, &component.constraints, cancel)?;
+            let part = cone.within(part);
             // A hard part leaves something for the others.
             let share = self.left / 2 / (components.len() - at) as u64;
             parts.push(self.simplify(part, share)?);
@@ -327,12 +327,13 @@ struct Part {
 
 impl Part {
     /// What the open properties of the part depend on, less what is equal.
-    fn core(&self, status: &[Status]) -> Cone {
+    fn core(&self, status: &[Status], cancel: &Cancel) -> Result<Cone, Why> {
         let netlist = &self.cone.netlist;
         let constraints: Vec<usize> = (0..netlist.constraints.len()).collect();
         let open = open_places(&self.cone, status);
         let mut cutter = Cutter::new(netlist, &self.classes);
-        self.cone.within(cutter.cut(&open, &constraints))
+        let core = cutter.cut(&open, &constraints, cancel)?;
+        Ok(self.cone.within(core))
     }
 }
 

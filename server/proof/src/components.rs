@@ -4,6 +4,9 @@
 //! netlist that share nothing but inputs which no constraint speaks of cannot
 //! tell anything about each other: whatever one does, the other may do anything.
 
+use logic::Cancel;
+
+use crate::limits::{Why, glance};
 use crate::netlist::Leaf;
 use crate::{Netlist, Signal};
 
@@ -16,10 +19,11 @@ pub(crate) struct Component {
 
 /// The parts of a netlist, in the order of their first properties; parts with
 /// constraints alone come last.
-pub(crate) fn components(netlist: &Netlist) -> Vec<Component> {
+pub(crate) fn components(netlist: &Netlist, cancel: &Cancel) -> Result<Vec<Component>, Why> {
     let mut sets = Sets((0..netlist.size()).collect());
-    let connects = connecting(netlist);
+    let connects = connecting(netlist, cancel)?;
     for node in 1..netlist.size() {
+        glance(cancel, node)?;
         if let Some([a, b]) = netlist.graph.gate(node) {
             for below in [a.node(), b.node()].into_iter().filter(|&it| connects[it]) {
                 sets.join(node, below);
@@ -48,18 +52,21 @@ pub(crate) fn components(netlist: &Netlist) -> Vec<Component> {
         let at = component(constraint, &mut components);
         components[at].constraints.push(place);
     }
-    components
+    Ok(components)
 }
 
 /// Which nodes connect those that they are part of: all but the constant and
 /// the inputs on which no constraint depends, in whatever scan.
-fn connecting(netlist: &Netlist) -> Vec<bool> {
+fn connecting(netlist: &Netlist, cancel: &Cancel) -> Result<Vec<bool>, Why> {
     let mut is_constrained = vec![false; netlist.size()];
     let mut open: Vec<usize> = netlist.constraints.iter().map(|it| it.node()).collect();
+    let mut walked = 0;
     while let Some(node) = open.pop() {
         if std::mem::replace(&mut is_constrained[node], true) {
             continue;
         }
+        walked += 1;
+        glance(cancel, walked)?;
         if let Some([a, b]) = netlist.graph.gate(node) {
             open.extend([a.node(), b.node()]);
         }
@@ -71,7 +78,7 @@ fn connecting(netlist: &Netlist) -> Vec<bool> {
         Some(Leaf::Input(_)) => is_constrained[node],
         _ => node != 0,
     });
-    connects.collect()
+    Ok(connects.collect())
 }
 
 /// Sets that are joined: each node leads towards the first of its set.
@@ -113,8 +120,10 @@ mod tests {
     }
 
     fn found(netlist: &Netlist) -> Vec<(Vec<usize>, Vec<usize>)> {
-        let components = components(netlist).into_iter();
+        let components = components(netlist, &Cancel::default());
         components
+            .expect("nobody cancels")
+            .into_iter()
             .map(|it| (it.properties, it.constraints))
             .collect()
     }

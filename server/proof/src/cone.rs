@@ -1,7 +1,10 @@
 //! Cutting out what matters: the gates that some properties depend on, with
 //! everything that the environment says.
 
+use logic::Cancel;
+
 use crate::classes::Classes;
+use crate::limits::{Why, glance};
 use crate::netlist::Leaf;
 use crate::{Gates, Initial, Netlist, Signal, Trace};
 
@@ -65,7 +68,7 @@ impl Touched {
 }
 
 /// Several parts of a netlist as one of them.
-pub(crate) fn joined(parts: &[Cone]) -> Cone {
+pub(crate) fn joined(parts: &[Cone], cancel: &Cancel) -> Result<Cone, Why> {
     let mut all = Cone {
         netlist: Netlist::default(),
         inputs: Vec::new(),
@@ -80,20 +83,26 @@ pub(crate) fn joined(parts: &[Cone]) -> Cone {
                 all.inputs.push(place);
             }
         }
-        all.netlist.include(&part.netlist, "");
+        all.netlist
+            .try_include(&part.netlist, "", |_| glance(cancel, 0))?;
         all.latches.extend(&part.latches);
         all.properties.extend(&part.properties);
     }
-    all
+    Ok(all)
 }
 
 impl Netlist {
     /// What the properties at these places depend on, over any number of
     /// scans, and all constraints with what they depend on. Outputs are left
     /// out: a trace for the part is one for the whole.
-    pub fn cone(&self, properties: &[usize]) -> Cone {
+    ///
+    /// # Errors
+    ///
+    /// [`Why::Cancelled`].
+    pub fn cone(&self, properties: &[usize], cancel: &Cancel) -> Result<Cone, Why> {
         let constraints: Vec<usize> = (0..self.constraints.len()).collect();
-        Cutter::new(self, &Classes::alone(self.size())).cut(properties, &constraints)
+        let alone = Classes::alone(self.size());
+        Cutter::new(self, &alone).cut(properties, &constraints, cancel)
     }
 
     /// What depends on any of these inputs, in the same scan or a later one.
@@ -174,15 +183,23 @@ impl<'n> Cutter<'n> {
     /// The part of these properties and these constraints. Fewer constraints
     /// allow more: what is proved of such a part holds of the whole, but a trace
     /// may be forbidden there.
-    pub fn cut(&mut self, properties: &[usize], constraints: &[usize]) -> Cone {
-        let nodes = self.need(properties, constraints);
+    ///
+    /// After an error nothing more can be cut.
+    pub fn cut(
+        &mut self,
+        properties: &[usize],
+        constraints: &[usize],
+        cancel: &Cancel,
+    ) -> Result<Cone, Why> {
+        let nodes = self.need(properties, constraints, cancel)?;
         let mut cone = Cone {
             netlist: Netlist::default(),
             inputs: Vec::new(),
             latches: Vec::new(),
             properties: properties.to_vec(),
         };
-        for &node in &nodes {
+        for (at, &node) in nodes.iter().enumerate() {
+            glance(cancel, at)?;
             self.place(node, &mut cone);
         }
         let part = &mut cone.netlist;
@@ -204,7 +221,7 @@ impl<'n> Cutter<'n> {
         for node in nodes {
             self.needed[node] = 0;
         }
-        cone
+        Ok(cone)
     }
 
     /// Puts a node into the part, after those that it needs.
@@ -243,7 +260,12 @@ impl<'n> Cutter<'n> {
     }
 
     /// Marks what is needed and lists it in the netlist's order.
-    fn need(&mut self, properties: &[usize], constraints: &[usize]) -> Vec<usize> {
+    fn need(
+        &mut self,
+        properties: &[usize],
+        constraints: &[usize],
+        cancel: &Cancel,
+    ) -> Result<Vec<usize>, Why> {
         let netlist = self.netlist;
         let mut nodes = Vec::new();
         let mut open: Vec<(usize, u8)> = Vec::new();
@@ -257,6 +279,7 @@ impl<'n> Cutter<'n> {
             }
             let is_first = self.needed[node] == 0;
             if is_first {
+                glance(cancel, nodes.len())?;
                 nodes.push(node);
             }
             self.needed[node] |= way;
@@ -275,7 +298,7 @@ impl<'n> Cutter<'n> {
             }
         }
         nodes.sort_unstable();
-        nodes
+        Ok(nodes)
     }
 }
 

@@ -12,7 +12,7 @@ pub fn deadlock(netlist: &Netlist, most: usize, limits: &Limits) -> Result<Optio
     if netlist.constraints().is_empty() {
         return Ok(None);
     }
-    let environment = netlist.cone(&[]).netlist;
+    let environment = netlist.cone(&[], &limits.cancel)?.netlist;
     let mut meter = Meter::new(limits, limits.steps);
     let mut bounded = Bounded::new(&environment);
     while bounded.clean < most {

@@ -110,7 +110,7 @@ impl<'n> Enumeration<'n> {
             let constraints = all_constraints(&part.netlist);
             while let Some((_, at)) = self.left.pop_if(|(own, _)| *own == core) {
                 if is_open(part.properties[at]) {
-                    let cone = cutter.cut(&[at], &constraints);
+                    let cone = cutter.cut(&[at], &constraints, &meter.cancel)?;
                     meter.spend(4 * cone.netlist.size())?;
                     put(&mut self.groups, core, at, cone.latches);
                 }
@@ -168,7 +168,8 @@ impl Group {
                 return Err(Why::Memory);
             }
             State::Fresh => {
-                let netlist = cut(core, &self.properties).netlist;
+                let cone = core.netlist.cone(&self.properties, &meter.cancel)?;
+                let netlist = cone.netlist;
                 let within = meter.spend(4 * netlist.size());
                 if within.is_err() {
                     self.state = State::Fresh;
@@ -188,11 +189,4 @@ impl Group {
         let places = self.properties.iter().map(|&at| core.properties[at]);
         Ok(places.zip(reached?).collect())
     }
-}
-
-/// What these properties of a part depend on, under all its constraints.
-fn cut(core: &Cone, properties: &[usize]) -> Cone {
-    let alone = Classes::alone(core.netlist.size());
-    let constraints = all_constraints(&core.netlist);
-    Cutter::new(&core.netlist, &alone).cut(properties, &constraints)
 }

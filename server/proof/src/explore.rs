@@ -106,6 +106,7 @@ pub(crate) fn explore(netlist: &Netlist, meter: &mut Meter) -> Result<Explored, 
                 .for_each(|it| it.draw(&ended, &mut random));
         }
         if scan % BATCH == BATCH - 1 {
+            meter.look()?;
             let now = explored.prints.kinds();
             quiet = if now > kinds { 0 } else { quiet + 1 };
             kinds = now;

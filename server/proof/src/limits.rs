@@ -20,8 +20,7 @@ pub struct Limits {
     pub nodes: usize,
     /// The longest sequence that is tried, in scans.
     pub scans: usize,
-    /// Obeyed within milliseconds; in systems of a million gates within some tenths
-    /// of a second.
+    /// Obeyed within a tenth of a second, mostly within milliseconds.
     pub cancel: Cancel,
 }
 
@@ -60,6 +59,15 @@ pub enum Why {
 
 /// Nodes of a netlist that are walked over between two looks at the limits.
 pub(crate) const STRIDE: usize = 1 << 12;
+
+/// Looks at a cancel in a walk over nodes that uses up no steps, many nodes at a
+/// time.
+pub(crate) fn glance(cancel: &Cancel, node: usize) -> Result<(), Why> {
+    match node.is_multiple_of(STRIDE) && cancel.is_cancelled() {
+        true => Err(Why::Cancelled),
+        false => Ok(()),
+    }
+}
 
 /// What is left of the limits for one engine in one turn.
 #[derive(Clone, Debug)]

@@ -76,6 +76,18 @@ impl Netlist {
     /// are added under `prefix`, its constraints and properties hold here too.
     /// Its outputs are asked of what is returned.
     pub fn include(&mut self, other: &Netlist, prefix: &str) -> Placed {
+        let go_on = |_: &Self| Ok::<(), Infallible>(());
+        let Ok(placed) = self.try_include(other, prefix, go_on);
+        placed
+    }
+
+    /// The same, stopped by an error of `look` as [`Netlist::try_place`] is.
+    pub(crate) fn try_include<E>(
+        &mut self,
+        other: &Netlist,
+        prefix: &str,
+        look: impl FnMut(&Self) -> Result<(), E>,
+    ) -> Result<Placed, E> {
         let inputs: Vec<Signal> = other
             .inputs
             .iter()
@@ -86,7 +98,7 @@ impl Netlist {
             .iter()
             .map(|latch| self.latch(format!("{prefix}{}", latch.name), latch.initial))
             .collect();
-        let placed = self.place(other, &inputs, &latches);
+        let placed = self.try_place(other, &inputs, &latches, look)?;
         for (latch, &signal) in other.latches.iter().zip(&latches) {
             self.set_next(signal, placed.of(latch.next));
         }
@@ -96,6 +108,6 @@ impl Netlist {
         for property in &other.properties {
             self.never(property.name.clone(), placed.of(property.signal));
         }
-        placed
+        Ok(placed)
     }
 }

@@ -57,7 +57,20 @@ pub fn seek(netlist: &Netlist, calm: &[usize], limits: &Limits) -> Search {
         properties: vec![open; netlist.properties.len()],
         why: None,
     };
-    let parts = components(netlist);
+    if let Err(why) = seek_in_parts(netlist, calm, limits, &mut search) {
+        search.why = Some(why);
+    }
+    search
+}
+
+/// Seeks in one part after the other; an error only where nobody wants more.
+fn seek_in_parts(
+    netlist: &Netlist,
+    calm: &[usize],
+    limits: &Limits,
+    search: &mut Search,
+) -> Result<(), Why> {
+    let parts = components(netlist, &limits.cancel)?;
     let parts: Vec<_> = parts
         .iter()
         .filter(|part| !part.properties.is_empty())
@@ -71,7 +84,7 @@ pub fn seek(netlist: &Netlist, calm: &[usize], limits: &Limits) -> Search {
     let mut left = limits.steps;
     for (at, part) in parts.iter().enumerate() {
         let share = left / (parts.len() - at) as u64;
-        let mut cone = cutter.cut(&part.properties, &constraints);
+        let mut cone = cutter.cut(&part.properties, &constraints, &limits.cancel)?;
         let are_calm = (0..cone.inputs.len()).filter(|&it| calm.contains(&cone.inputs[it]));
         let are_calm: Vec<usize> = are_calm.collect();
         cone.netlist.calm(&are_calm);
@@ -85,14 +98,13 @@ pub fn seek(netlist: &Netlist, calm: &[usize], limits: &Limits) -> Search {
                 other => other,
             };
         }
-        if let Err(why) = ended {
-            search.why = Some(why);
-            if why == Why::Cancelled {
-                break;
-            }
+        match ended {
+            Err(Why::Cancelled) => return ended,
+            Err(why) => search.why = Some(why),
+            Ok(()) => {}
         }
     }
-    search
+    Ok(())
 }
 
 /// The search in one part.
@@ -233,7 +245,7 @@ impl<'s> Seeking<'s> {
         let search = match &mut states.search {
             Some(search) => search,
             None => {
-                let cone = self.netlist.cone(&open);
+                let cone = self.netlist.cone(&open, &meter.cancel)?;
                 meter.spend(4 * cone.netlist.size())?;
                 states.search.insert((Reach::new(cone.netlist)?, open))
             }

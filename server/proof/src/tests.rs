@@ -7,6 +7,7 @@ mod explicit;
 pub(crate) mod plan;
 
 use explicit::shortest_difference;
+use logic::Cancel;
 use plan::{Operand, Plan, plans};
 use proptest::prelude::*;
 
@@ -150,7 +151,8 @@ proptest! {
         let classes = corresponding(&framing, candidates, &mut meter()).expect("small");
         let all: Vec<usize> = (0..netlist.properties.len()).collect();
         let constraints: Vec<usize> = (0..netlist.constraints.len()).collect();
-        let merged = Cutter::new(&netlist, &classes).cut(&all, &constraints);
+        let merged = Cutter::new(&netlist, &classes).cut(&all, &constraints, &Cancel::default());
+        let merged = merged.expect("nobody cancels");
         let reached = reached(&merged.netlist);
         match shortest {
             None => prop_assert!(matches!(reached, Reached::All(_))),

@@ -26,27 +26,32 @@ pub(crate) struct Frame {
 }
 
 impl Frame {
-    /// The system of one scan, in steps of this timing, where a step is followed
-    /// through so many scans.
+    /// The system of one scan, which it takes over, in steps of this timing, where
+    /// a step is followed through so many scans.
     pub(crate) fn new(
-        evolved: &Evolved,
+        evolved: &mut Evolved,
         timing: Timing,
         scans: usize,
         bounds: &Bounds,
     ) -> Result<Self, Refusal> {
+        let scan = std::mem::take(&mut evolved.netlist);
         match timing {
             Timing::Scan => Ok(Self {
-                netlist: evolved.netlist.clone(),
+                netlist: scan,
                 last: None,
                 unstable: evolved.unstable,
                 restless: Signal::FALSE,
             }),
-            Timing::Settled => Self::settled(evolved, scans, bounds),
+            Timing::Settled => Self::settled(evolved, &scan, scans, bounds),
         }
     }
 
-    fn settled(evolved: &Evolved, scans: usize, bounds: &Bounds) -> Result<Self, Refusal> {
-        let scan = &evolved.netlist;
+    fn settled(
+        evolved: &Evolved,
+        scan: &Netlist,
+        scans: usize,
+        bounds: &Bounds,
+    ) -> Result<Self, Refusal> {
         let mut netlist = Netlist::default();
         let inputs = scan
             .inputs()
@@ -87,6 +92,7 @@ impl Frame {
         }
         let (further, _) = run(&mut netlist, &now)?;
         let differ = now.iter().zip(&further);
+        bounds.look(&netlist)?;
         let differ: Vec<Signal> = differ
             .map(|(one, other)| netlist.xor(*one, *other))
             .collect();

@@ -5,10 +5,9 @@ use std::collections::HashSet;
 use grafcet::Spec;
 use grafcet::evolution::Unstable;
 use ladder::{Class, Program};
-use logic::Name;
+use logic::{Cancel, Name};
 use proof::{
-    Gates, Limits, Netlist, Proof, Signal, Status, Verdict as Found, Why, check, deadlock,
-    simplified,
+    Limits, Netlist, Proof, Signal, Status, Verdict as Found, Why, check, deadlock, simplified,
 };
 
 use crate::chart::{self, Evolved};
@@ -41,9 +40,11 @@ impl Timing {
     }
 }
 
-/// Properties that are no outputs; no variable is called so.
+/// The first properties of a comparison, which are no outputs; no variable is
+/// called so.
 const UNSTABLE: &str = "(unstable)";
 const RESTLESS: &str = "(restless)";
+const NO_OUTPUTS: usize = 2;
 
 /// A scan of a grafcet is followed through this many evolutions, a settling of
 /// both sides through this many scans, at most.
@@ -181,6 +182,15 @@ pub(crate) struct System {
     never: Vec<Signal>,
 }
 
+/// What came of comparing the outputs.
+struct Compared {
+    verdict: Verdict,
+    states: Option<u128>,
+    deadlock: Option<usize>,
+    /// The question.
+    asked: Netlist,
+}
+
 impl<'v> Verifier<'v> {
     fn new(
         program: &'v Program,
@@ -211,27 +221,30 @@ impl<'v> Verifier<'v> {
                 Err(Refusal::TooLarge) => return Ok(self.too_large()),
                 system => system?,
             };
-            let Some(verdict) = self.compare(&system)? else {
+            let Some(compared) = self.compare(&system)? else {
                 continue;
             };
-            let (verdict, states, deadlock) = verdict;
             let mut properties = Vec::new();
             for (at, property) in self.spec.never.iter().enumerate() {
                 let verdict = self.property(&system, at);
                 properties.push((property.name.clone(), verdict));
             }
+            let mut question = compared.asked;
+            for (property, bad) in self.spec.never.iter().zip(&system.never) {
+                question.never(property.name.clone(), *bad);
+            }
             return Ok(Verification {
                 timing: self.timing,
-                verdict,
+                verdict: compared.verdict,
                 rules: self.spec.environment.len(),
                 missing: system.missing.clone(),
                 absent: self.absent(&system),
                 properties,
-                free: free(&system),
-                question: question(&system, self.spec),
+                free: free(&system, &question, &self.limits.cancel),
+                question,
                 outputs: system.outputs,
-                deadlock,
-                states,
+                deadlock: compared.deadlock,
+                states: compared.states,
             });
         }
     }
@@ -283,15 +296,18 @@ impl<'v> Verifier<'v> {
 
     /// Compares the outputs. `None` if more evolutions or scans must be
     /// followed.
-    #[allow(clippy::type_complexity)]
-    fn compare(
-        &mut self,
-        system: &System,
-    ) -> Result<Option<(Verdict, Option<u128>, Option<usize>)>, Refusal> {
+    fn compare(&mut self, system: &System) -> Result<Option<Compared>, Refusal> {
         let frame = &system.frame;
         let mut bad = vec![frame.unstable, frame.restless];
         bad.extend(&system.differ);
+        self.bounds.is_wanted()?;
         let asked = comparison(system);
+        let alone = |verdict, asked| Compared {
+            verdict,
+            states: None,
+            deadlock: None,
+            asked,
+        };
         let report = check(&asked, self.limits);
         let verdict = match report.verdict {
             _ if system.outputs.is_empty()
@@ -330,16 +346,16 @@ impl<'v> Verifier<'v> {
                         is_shortest,
                         is_brief,
                     };
-                    return Ok(Some((Verdict::Different(difference), None, None)));
+                    return Ok(Some(alone(Verdict::Different(difference), asked)));
                 }
                 let is = |name: &str| found.properties.iter().any(|it| &**it == name);
                 let rounds = match (is(UNSTABLE), is(RESTLESS)) {
                     _ if self.limits.cancel.is_cancelled() => {
-                        return Ok(Some((self.unconfirmed(found.clean), None, None)));
+                        return Ok(Some(alone(self.unconfirmed(found.clean), asked)));
                     }
                     (true, _) => &mut self.evolutions,
                     (_, true) => &mut self.settling,
-                    _ => return Ok(Some((self.unconfirmed(found.clean), None, None))),
+                    _ => return Ok(Some(alone(self.unconfirmed(found.clean), asked))),
                 };
                 // Not twice: what is followed in vain makes every proof dearer.
                 *rounds += *rounds / 2 + 1;
@@ -369,7 +385,12 @@ impl<'v> Verifier<'v> {
             _ => Ok(None),
         };
         let deadlock = deadlock.map_err(|_| Refusal::Cancelled)?;
-        Ok(Some((verdict, states, deadlock)))
+        Ok(Some(Compared {
+            verdict,
+            states,
+            deadlock,
+            asked,
+        }))
     }
 
     fn property(&self, system: &System, at: usize) -> Verdict {
@@ -473,7 +494,7 @@ pub(crate) fn system(
         .iter()
         .try_for_each(|it| atoms.look_up_property(it))?;
     let atoms = atoms.known();
-    let mut frame = Frame::new(&evolved, timing, settling, bounds)?;
+    let mut frame = Frame::new(&mut evolved, timing, settling, bounds)?;
     let differ = differ.into_iter().map(|signal| frame.of(signal)).collect();
     let mut steps = Steps {
         frame: &mut frame,
@@ -518,24 +539,14 @@ fn comparison(system: &System) -> Netlist {
     asked
 }
 
-/// The comparison, and the properties of the spec.
-fn question(system: &System, spec: &Spec) -> Netlist {
-    let mut asked = comparison(system);
-    for (property, bad) in spec.never.iter().zip(&system.never) {
-        asked.never(property.name.clone(), *bad);
-    }
-    asked
-}
-
-/// What is left free and can tell on the outputs that are compared.
-fn free(system: &System) -> Vec<Source> {
-    let mut asked = system.frame.netlist.clone();
-    let any = asked.any(&system.differ);
-    asked.never("any", any);
-    let cone = asked.cone(&[asked.properties().len() - 1]);
-    let sources = cone
-        .inputs
+/// What is left free and can tell on the outputs that are compared; nothing where
+/// somebody asked to stop.
+fn free(system: &System, question: &Netlist, cancel: &Cancel) -> Vec<Source> {
+    let outputs: Vec<usize> = (NO_OUTPUTS..NO_OUTPUTS + system.outputs.len()).collect();
+    let inputs = question.cone(&outputs, cancel).map(|cone| cone.inputs);
+    let sources = inputs
         .iter()
+        .flatten()
         .filter_map(|at| system.evolved.inputs.sources.get(*at));
     let is_free = |source: &&Source| !matches!(source, Source::Bit(_) | Source::Choice { .. });
     sources.filter(is_free).cloned().collect()

@@ -38,8 +38,18 @@ pub(super) fn compile(grafcet: &Grafcet) -> Net {
         .net
         .stored
         .sort_by_key(|action| action.effect.rank());
-    publishing::arrange(&mut compiler.net);
-    compiler.net
+    let Compiler {
+        mut net, outputs, ..
+    } = compiler;
+    publishing::arrange(&mut net, outputs);
+    net.is_own = net.is_continuous.clone();
+    for action in &net.stored {
+        net.is_own[action.variable] = true;
+    }
+    for output in &net.outputs {
+        net.is_own[*output] = true;
+    }
+    net
 }
 
 struct Compiler<'g> {
@@ -49,6 +59,7 @@ struct Compiler<'g> {
     /// What is declared, and whether as an output.
     declared: HashMap<&'g Name, bool>,
     published: HashSet<usize>,
+    outputs: publishing::Outputs,
     net: Net,
 }
 
@@ -75,6 +86,7 @@ impl<'g> Compiler<'g> {
             steps,
             declared,
             published: HashSet::new(),
+            outputs: publishing::Outputs::default(),
             net: Net::default(),
         };
         for step in grafcet.steps() {
@@ -289,7 +301,7 @@ impl<'g> Compiler<'g> {
                     effect,
                 });
             }
-            _ => publishing::add(&mut self.net, variable, step, condition, edges),
+            _ => self.outputs.add(variable, step, condition, edges),
         }
     }
 

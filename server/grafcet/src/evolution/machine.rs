@@ -85,6 +85,11 @@ impl Machine {
         }
     }
 
+    /// What the machine runs.
+    pub fn net(&self) -> &Net {
+        &self.net
+    }
+
     /// Gives a variable a value between two scans, by its name or address. Any
     /// variable may be given one, not only inputs. Whether there is such a
     /// variable; a step's is not given values.
@@ -201,12 +206,12 @@ impl Machine {
         outputs.map(|at| (&self.net.variables[*at], self.state.values[*at]))
     }
 
-    /// The variables that no action writes: inputs, and whatever else somebody
-    /// must give a value, in the order they are declared.
+    /// The variables that are not the grafcet's own: inputs, and whatever else
+    /// somebody must give a value, in the order they are declared.
     pub fn free(&self) -> impl Iterator<Item = &Name> {
         let names = self.net.variables.iter().enumerate();
         names
-            .filter(|(at, _)| !self.net.is_written(*at))
+            .filter(|(at, _)| !self.net.is_own[*at])
             .map(|(_, name)| name)
     }
 
@@ -224,10 +229,11 @@ impl Machine {
         self.value(name).is_on()
     }
 
-    /// Whether `name` is a step's, or a variable's that some action writes.
+    /// Whether `name` is a step's, or a variable's that is the grafcet's own: some
+    /// action writes it, or it is declared as an output.
     pub fn decides(&self, name: &str) -> bool {
-        let written = self.net.variable(name).map(|at| self.net.is_written(at));
-        written.unwrap_or_else(|| self.net.step_names.contains_key(name))
+        let own = self.net.variable(name).map(|at| self.net.is_own[at]);
+        own.unwrap_or_else(|| self.net.step_names.contains_key(name))
     }
 
     /// Whether `name` is a step or variable of the grafcet.

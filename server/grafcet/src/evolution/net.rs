@@ -9,10 +9,8 @@ use std::collections::HashMap;
 
 use logic::{Datum, Name};
 
-use super::compile::compile;
 use super::condition::{Condition, Edge, View};
 use super::term::Term;
-use crate::Grafcet;
 
 /// A grafcet with numbers in place of names.
 #[derive(Clone, Debug, Default)]
@@ -42,6 +40,9 @@ pub struct Net {
     pub continuous: Vec<Vec<Continuous>>,
     /// Whether a variable is the output of a continuous action.
     pub is_continuous: Vec<bool>,
+    /// Whether a variable is the grafcet's own: an action writes it, or it is
+    /// declared as an output.
+    pub is_own: Vec<bool>,
     /// Forcing orders, in the order of the text.
     pub orders: Vec<Order>,
     /// Partial grafcets and expansions.
@@ -198,11 +199,6 @@ pub struct Part {
 }
 
 impl Net {
-    /// The grafcet ready to run, its instances written out.
-    pub fn of(grafcet: &Grafcet) -> Self {
-        compile(grafcet)
-    }
-
     /// The step that is activated where an arc leads to `step`.
     pub fn entry(&self, step: usize) -> Option<usize> {
         match &self.steps.get(step)?.kind {
@@ -217,12 +213,6 @@ impl Net {
             Kind::Macro(expansion) => expansion.exit,
             _ => Some(step),
         }
-    }
-
-    /// Whether some action writes the variable.
-    pub fn is_written(&self, variable: usize) -> bool {
-        let mut stored = self.stored.iter();
-        self.is_continuous[variable] || stored.any(|action| action.variable == variable)
     }
 
     /// The variable called `name`, or the one that has it as its address.

@@ -6,6 +6,7 @@
 //! that depend on each other in a circle see each other as they were last
 //! published.
 
+use std::collections::HashMap;
 use std::ops::Range;
 
 use petgraph::algo::tarjan_scc;
@@ -15,31 +16,40 @@ use super::condition::Condition;
 use super::firing;
 use super::net::{Continuous, Net, State};
 
-/// Adds a continuous action, in whose condition these edges stand.
-pub(super) fn add(
-    net: &mut Net,
-    variable: usize,
-    step: usize,
-    condition: Condition,
-    edges: Range<usize>,
-) {
-    let mut all = net.continuous.iter_mut().flatten();
-    match all.find(|output| output.variable == variable) {
-        Some(output) => {
-            output.acts.push((step, condition));
-            output.edges.extend(edges);
+/// The outputs with continuous actions, in the order in which they are met.
+#[derive(Default)]
+pub(super) struct Outputs {
+    list: Vec<Continuous>,
+    /// By variable, the place in the list.
+    places: HashMap<usize, usize>,
+}
+
+impl Outputs {
+    /// Adds a continuous action, in whose condition these edges stand.
+    pub(super) fn add(
+        &mut self,
+        variable: usize,
+        step: usize,
+        condition: Condition,
+        edges: Range<usize>,
+    ) {
+        let at = *self.places.entry(variable).or_insert(self.list.len());
+        if at == self.list.len() {
+            self.list.push(Continuous {
+                variable,
+                acts: Vec::new(),
+                edges: Vec::new(),
+            });
         }
-        None => net.continuous.push(vec![Continuous {
-            variable,
-            acts: vec![(step, condition)],
-            edges: edges.collect(),
-        }]),
+        let output = &mut self.list[at];
+        output.acts.push((step, condition));
+        output.edges.extend(edges);
     }
 }
 
-/// Brings the outputs into the order in which they are worked out.
-pub(super) fn arrange(net: &mut Net) {
-    let outputs: Vec<Continuous> = net.continuous.drain(..).flatten().collect();
+/// Takes in the outputs, in the order in which they are worked out.
+pub(super) fn arrange(net: &mut Net, outputs: Outputs) {
+    let outputs = outputs.list;
     net.is_continuous = vec![false; net.variables.len()];
     let mut places = vec![None; net.variables.len()];
     let mut graph: DiGraph<usize, ()> = DiGraph::new();

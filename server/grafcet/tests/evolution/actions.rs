@@ -1,7 +1,7 @@
 //! Continuous and stored actions. Each test is a section of
 //! `docs/evolution.md`.
 
-use crate::run::check;
+use crate::run::{check, machine};
 
 #[test]
 fn continuous_actions_with_conditions_delays_and_limits() {
@@ -35,6 +35,25 @@ fn an_output_is_on_while_one_of_its_actions_acts() {
          a -> A B | x
          /a b -> A B | x
          /b -> A B |",
+    );
+}
+
+#[test]
+fn an_output_without_actions_is_off() {
+    check(
+        "Step A
+         Input a
+         Output x, y
+         Marking A
+         Steps:
+         A: a |- x",
+        " -> A |
+         a -> A | x",
+    );
+    let machine = machine("Step A\nInput a\nOutput x, y\nMarking A\nSteps:\nA: a |- x");
+    assert_eq!(
+        ["a", "x", "y"].map(|it| machine.decides(it)),
+        [false, true, true]
     );
 }
 

@@ -7,8 +7,9 @@
 //! whether one more would still change the situation. As long as that can
 //! happen, somebody must ask for more, or see that it never ends.
 //!
-//! What the grafcet does not write and its ladder knows, it reads from the
-//! ladder, after the ladder's scan. All else that it does not write is an input.
+//! What no action writes and is declared as no output, and its ladder knows, it
+//! reads from the ladder, after the ladder's scan. All else of that kind is an
+//! input.
 
 mod evolution;
 mod hierarchy;
@@ -62,9 +63,9 @@ pub fn follow(
     bounds: &Bounds,
 ) -> Result<Evolved, Refusal> {
     bounds.is_wanted()?;
-    let net = Net::of(&spec.grafcet);
-    bounds.is_wanted()?;
     let start = Machine::new(&spec.grafcet);
+    let net = start.net();
+    bounds.is_wanted()?;
     let initial: Vec<bool> = net
         .steps
         .iter()
@@ -81,7 +82,7 @@ pub fn follow(
     for _ in 0..MOST_PASSES {
         bounds.is_wanted()?;
         let mut pass = Pass {
-            net: &net,
+            net,
             ladder,
             netlist: ladder.map_or_else(Netlist::default, |it| it.netlist.clone()),
             inputs: ladder.map_or_else(Inputs::default, |it| it.inputs.clone()),
@@ -94,7 +95,7 @@ pub fn follow(
         let (mut state, latches) = pass.begin(&initial, &domains);
         let unstable = pass.scan(&mut state, &latches, evolutions)?;
         pass.end(&state, &latches);
-        if !learn(&mut domains, &state, &net) {
+        if !learn(&mut domains, &state, net) {
             return Ok(Evolved {
                 netlist: pass.netlist,
                 inputs: pass.inputs,
@@ -126,7 +127,7 @@ const FIRST_UNKNOWN: usize = 1 << 40;
 fn learn(domains: &mut Domains, state: &State, net: &Net) -> bool {
     let mut has_learnt = false;
     for (at, domain) in domains.iter_mut().enumerate() {
-        if !net.is_written(at) || domain.is_empty() {
+        if !net.is_own[at] || domain.is_empty() {
             continue;
         }
         let Value::Known(cases) = &state.values[at] else {

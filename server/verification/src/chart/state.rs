@@ -82,7 +82,7 @@ impl Pass<'_> {
                 latches.kept.push((at, kept[at]));
             }
         }
-        let values = (0..net.variables.len()).map(|at| match net.is_written(at) {
+        let values = (0..net.variables.len()).map(|at| match net.is_own[at] {
             true => self.stored_value(at, &domains[at], &mut latches.values),
             false => self.read_from_outside(at),
         });

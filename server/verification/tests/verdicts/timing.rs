@@ -59,6 +59,14 @@ fn a_grafcet_without_a_stable_situation_is_no_spec_of_anything() {
 }
 
 #[test]
+fn an_output_that_the_spec_declares_and_never_writes_is_off_there() {
+    let ladder = "program P\ninput a\noutput q\noutput r\nrung: a -> q\nrung: a -> r\n";
+    let spec = "Step X0\nInput a\nOutput q, r\nMarking X0\nSteps:\nX0: a |- q\n";
+    let found = verified(ladder, spec, Timing::Scan);
+    assert_told(&found.verdict, "a | q r | q\ndiffer: r");
+}
+
+#[test]
 fn so_many_evolutions_as_a_scan_takes_are_followed() {
     let mut spec = String::from("Step ");
     let steps: Vec<String> = (0..20).map(|at| format!("X{at}")).collect();
