@@ -77,7 +77,8 @@ fn an_instance_is_a_copy_with_names_of_its_own() {
         "Instance d1 of Drill(s, v1)\nReusable Drill(go, motor)\nStep E0, E1\nTransition t1\n\
          Marking E0\nTransitions:\nt1: E0*go*5s/E0 |- @E1\nSteps:\nE1: |- motor := motor + 1\n",
     )
-    .instantiated();
+    .instantiated()
+    .into_owned();
     assert!(written_out.instances.is_empty());
     let [copy] = &written_out.parts[..] else {
         panic!("one part, not {:?}", written_out.parts);

@@ -15,6 +15,10 @@ const PER_CONFLICT: u64 = 2_000;
 /// not counted: the solver tells their number only when it is done.
 const PER_DECISION: u64 = 200;
 
+/// Searches of so many variables are freed where nobody waits for it: they keep two
+/// lists for each.
+const LARGE: usize = 50_000;
+
 /// Asks whether signals of a graph can be 1 together.
 ///
 /// The graph may grow between questions. Of its gates only those are known to
@@ -39,10 +43,22 @@ pub(crate) enum Answer {
     No,
 }
 
+impl Drop for Solver {
+    fn drop(&mut self) {
+        if self.variables.len() < LARGE {
+            return;
+        }
+        let sat = std::mem::replace(&mut self.sat, fresh());
+        let freeing = std::thread::Builder::new().name("freeing a search".into());
+        // Where no thread can be had, it is freed here.
+        let _ = freeing.spawn(move || drop(sat));
+    }
+}
+
 impl Default for Solver {
     fn default() -> Self {
         Self {
-            sat: Sat::new(SolverOpts::default(), Watch::default()),
+            sat: fresh(),
             variables: Vec::new(),
             clause: Vec::new(),
             open: Vec::new(),
@@ -187,6 +203,10 @@ impl Solver {
         self.clause.extend_from_slice(literals);
         self.sat.add_clause_reuse(&mut self.clause);
     }
+}
+
+fn fresh() -> Sat<Watch> {
+    Sat::new(SolverOpts::default(), Watch::default())
 }
 
 /// Stops a search from within: asked at every decision.

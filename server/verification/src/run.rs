@@ -2,7 +2,6 @@
 //!
 //! What the proof engines find is told only after it has happened here.
 
-use grafcet::Grafcet;
 use grafcet::evolution::{self, Unstable};
 use ladder::{Program, scan};
 use logic::{Atom, Cancel, Datum, Expr, Name, Relation};
@@ -49,13 +48,12 @@ impl<'r> Run<'r> {
     /// Both before their first scan.
     pub(crate) fn new(
         program: &'r Program,
-        grafcet: &Grafcet,
+        machine: evolution::Machine,
         followed: &'r Followed,
         [outputs, watched]: [&'r [Name]; 2],
         timing: Timing,
         cancel: &'r Cancel,
     ) -> Self {
-        let machine = evolution::Machine::new(grafcet);
         let read = machine.free().filter(|name| followed.knows(name)).cloned();
         Self {
             read: read.collect(),

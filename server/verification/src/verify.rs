@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 
 use grafcet::Spec;
-use grafcet::evolution::Unstable;
+use grafcet::evolution::{Machine, Unstable};
 use ladder::{Class, Program};
 use logic::{Cancel, Name};
 use proof::{
@@ -165,6 +165,8 @@ struct Verifier<'v> {
     limits: &'v Limits,
     bounds: Bounds,
     followed: Followed,
+    /// The grafcet before its first scan.
+    machine: Machine,
     evolutions: usize,
     settling: usize,
 }
@@ -203,12 +205,15 @@ impl<'v> Verifier<'v> {
             work: usize::try_from(limits.steps / 50).unwrap_or(usize::MAX),
             cancel: limits.cancel.clone(),
         };
+        let followed = program::follow(program, Some(spec), &bounds)?;
+        bounds.is_wanted()?;
         Ok(Self {
             program,
             spec,
             timing,
             limits,
-            followed: program::follow(program, Some(spec), &bounds)?,
+            followed,
+            machine: Machine::new(&spec.grafcet),
             bounds,
             evolutions: 2,
             settling: 3,
@@ -452,10 +457,10 @@ impl<'v> Verifier<'v> {
         system: &'s System,
         signals: &proof::Trace,
     ) -> ((Trace, End), Run<'s>) {
-        let grafcet = &self.spec.grafcet;
+        let machine = self.machine.clone();
         let shown = [system.outputs.as_slice(), system.watched.as_slice()];
         let (timing, cancel) = (self.timing, &self.limits.cancel);
-        let mut run = Run::new(self.program, grafcet, &self.followed, shown, timing, cancel);
+        let mut run = Run::new(self.program, machine, &self.followed, shown, timing, cancel);
         (run.trace(&system.evolved.inputs, signals), run)
     }
 }

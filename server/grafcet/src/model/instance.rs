@@ -1,3 +1,4 @@
+use std::borrow::Cow;
 use std::collections::HashMap;
 
 use logic::notation::{Lexer, TokenKind, quoted};
@@ -16,8 +17,11 @@ impl Grafcet {
     /// `d1.t1`; parameters become the instance's arguments. An instance of a
     /// grafcet that is not there gives nothing.
     #[must_use]
-    pub fn instantiated(&self) -> Self {
+    pub fn instantiated(&self) -> Cow<'_, Self> {
         let is_template = |part: &Part| matches!(part.kind, PartKind::Reusable { .. });
+        if self.instances.is_empty() && !self.parts.iter().any(is_template) {
+            return Cow::Borrowed(self);
+        }
         let copies = self.instances.iter().filter_map(|instance| {
             let template = self.part(&instance.of)?;
             let PartKind::Reusable { parameters } = &template.kind else {
@@ -45,11 +49,11 @@ impl Grafcet {
         let mut parts: Vec<Part> = copies.collect();
         let kept = self.parts.iter().filter(|part| !is_template(part)).cloned();
         parts.splice(0..0, kept);
-        Self {
+        Cow::Owned(Self {
             parts,
             instances: Vec::new(),
             ..self.clone()
-        }
+        })
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use grafcet::Grafcet;
+use grafcet::{Grafcet, evolution};
 use ladder::Program;
 use ladder::scan::Machine;
 use logic::{Cancel, Name};
@@ -44,11 +44,10 @@ impl Confirming<'_> {
         let variables = states.iter().map(|name| &self.pairs.held[name].variable);
         let mut variables: Vec<Name> = variables.cloned().collect();
         variables.dedup();
-        let grafcet = Grafcet::default();
         let shown = [&[][..], &variables[..]];
         let mut run = Run::new(
             self.program,
-            &grafcet,
+            evolution::Machine::new(&Grafcet::default()),
             self.followed,
             shown,
             Timing::Scan,
