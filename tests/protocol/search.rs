@@ -96,6 +96,26 @@ fn what_was_seen_can_be_accepted() {
 }
 
 #[test]
+fn all_that_is_seen_can_be_accepted_at_once() {
+    let mut client = client();
+    client.open("tank.ladder", TANK);
+    let argument = json!({ "uri": client.uri("tank.ladder"), "accept": "witnessed" });
+    let converted = ask(&mut client, "gradus.convert", argument);
+    assert_eq!(
+        converted.expect("no refusal").expect("an answer")["changed"],
+        true
+    );
+    // The search that it took is kept.
+    let seen = neighbours(&mut client, 6);
+    assert!(
+        seen.iter().any(|line| line.contains("seen after")),
+        "{seen:?}"
+    );
+    let spec = format!("{:?}", client.applied());
+    assert!(spec.contains("@Xv2"), "{spec}");
+}
+
+#[test]
 fn a_ladder_that_is_not_open_is_refused() {
     let mut client = crate::client_like(Profile::Helix);
     client.open("tank.grafcet", LEVELS);

@@ -16,7 +16,7 @@ import {
 } from "vscode";
 import type { LanguageClient } from "vscode-languageclient/node";
 import { scenarioLanguage } from "./ladder-file";
-import { type Conversion, execute, type Searched, type Spec, type Text } from "./protocol";
+import { type Accept, type Conversion, execute, type Searched, type Spec, type Text } from "./protocol";
 import { type Server, showBeside, showPage } from "./server";
 import type { Verdicts } from "./verdicts";
 import { conditionsOf, pageCommand, pageOf, rungsOf } from "./virtual-documents";
@@ -39,8 +39,9 @@ export function registerCommands(
     if (client !== undefined) await run(client, ladder);
   };
   return Object.entries({
-    "gradus.file.convert": onLadder((client, ladder) => convert(client, "gradus.convert", ladder)),
-    "gradus.file.acceptHandovers": onLadder((client, ladder) => convert(client, "gradus.acceptHandovers", ladder)),
+    "gradus.file.convert": onLadder((client, ladder) => convert(client, ladder, "none")),
+    "gradus.file.acceptHandovers": onLadder((client, ladder) => convert(client, ladder, "handover")),
+    "gradus.file.acceptWitnessed": onLadder((client, ladder) => convert(client, ladder, "witnessed")),
     "gradus.file.openSpec": onLadder(openSpec),
     "gradus.file.ladderText": onLadder((_, ladder) => showBeside(rungsOf(ladder), true)),
     "gradus.file.conditions": onLadder((_, ladder) => showBeside(conditionsOf(ladder), true)),
@@ -70,8 +71,9 @@ async function onScenario(server: Server, command: string): Promise<void> {
   await commands.executeCommand(command, { uri, line: editor.selection.active.line });
 }
 
-async function convert(client: LanguageClient, command: string, ladder: Uri): Promise<void> {
-  const answer = await execute<Conversion>(client, command, { uri: client.code2ProtocolConverter.asUri(ladder) });
+async function convert(client: LanguageClient, ladder: Uri, accept: Accept): Promise<void> {
+  const uri = client.code2ProtocolConverter.asUri(ladder);
+  const answer = await execute<Conversion>(client, "gradus.convert", { uri, accept });
   await showBeside(client.protocol2CodeConverter.asUri(answer.uri), false);
   window.setStatusBarMessage(`Gradus: ${answer.changed ? "" : "nothing to change: "}${answer.summary}`, 10_000);
 }
@@ -92,7 +94,7 @@ async function openSpec(client: LanguageClient, ladder: Uri): Promise<void> {
   if (spec.exists) return;
   const create = "Create It";
   const answer = await window.showInformationMessage("There is no spec beside this ladder yet.", create);
-  if (answer === create) await convert(client, "gradus.convert", ladder);
+  if (answer === create) await convert(client, ladder, "none");
 }
 
 async function report(context: ExtensionContext, server: Server): Promise<void> {

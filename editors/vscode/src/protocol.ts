@@ -33,7 +33,10 @@ export interface Proof {
 
 export const statusNotification = new NotificationType<Status>("gradus/status");
 
-/** What `gradus.convert` and `gradus.acceptHandovers` answer. */
+/** What `gradus.convert` accepts on the way. */
+export type Accept = "none" | "handover" | "witnessed" | "all";
+
+/** What `gradus.convert` answers. */
 export interface Conversion {
   readonly uri: string;
   readonly summary: string;

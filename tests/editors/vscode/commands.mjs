@@ -34,6 +34,17 @@ export function commands(at) {
     assert.equal(tank.read(tank.spec), tank.specWith("--accept", "handover"));
   });
 
+  test("all that sequences show is accepted at once", async () => {
+    const { editor } = at;
+    const tank = newTank("witnessed");
+    await editor.open(tank.ladder);
+    await editor.run("Gradus: Accept All That Sequences Show");
+    await editor.text(tank.spec).waitFor();
+    await editor.isDirty(tank.spec);
+    await editor.saveAll();
+    assert.equal(tank.read(tank.spec), tank.specWith("--accept", "witnessed"));
+  });
+
   test("the conditions of all coils are shown", async () => {
     const { editor } = at;
     const tank = newTank("conditions");

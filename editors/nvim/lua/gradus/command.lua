@@ -91,7 +91,7 @@ end
 local subcommands = {
   convert = {
     does = 'create the spec or bring it up to date',
-    choices = { 'none', 'handover', 'all' },
+    choices = { 'none', 'handover', 'witnessed', 'all' },
     run = function(accept)
       ask('gradus.convert', { uri = ladder(), accept = accept }, show_conversion)
     end,

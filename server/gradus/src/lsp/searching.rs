@@ -76,6 +76,20 @@ pub async fn asked(shared: &Arc<Shared>, uri: Uri) -> Result<Value> {
     Ok(answer)
 }
 
+/// Searches as [`asked`] does, unless what is seen is known since an earlier search.
+pub async fn once(shared: &Arc<Shared>, uri: Uri) -> Result<()> {
+    let world = shared.state.world();
+    let is_known = world.document(&uri).is_some_and(|document| {
+        let pair = Pair::of(&world, &document);
+        let ladder = pair.ladder();
+        ladder.is_some_and(|ladder| ladder.analysis.sights().is_some())
+    });
+    match is_known {
+        true => Ok(()),
+        false => asked(shared, uri).await.map(drop),
+    }
+}
+
 /// The document with what is seen, and what the client is told of it. The error
 /// says why nothing is.
 fn search(

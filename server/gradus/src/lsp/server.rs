@@ -388,6 +388,10 @@ impl LanguageServer for Server {
                 query::elsewhere(move |_| requests::verify::answer(&pair, &known)).await
             }
             Command::Ladder(uri, command) => {
+                if command.needs_sights() {
+                    searching::once(&self.shared, uri.clone()).await?;
+                }
+                let world = self.shared.state.world();
                 let done = about(world, uri.clone(), move |query| {
                     requests::command::answer(query, &command)
                 });

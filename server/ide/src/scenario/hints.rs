@@ -206,8 +206,7 @@ on ls2 => off v1«nothing on · X0»
         let tank = Tank::new(LADDER, &idle, SCENARIO);
         let all = Span::new(0, SCENARIO.len());
         let hints = hints_in_scenario(&tank.scenario, tank.pair(), &tank.run(), all);
-        // The spec has no output any more, so that there is none to differ.
-        assert_eq!(hints[0].text, "v1 · Xv1");
+        assert_eq!(hints[0].text, "v1 · Xv1 · differ: v1");
         assert_eq!(cut(&"v1 ".repeat(40)).chars().count(), LONGEST);
     }
 

@@ -87,6 +87,14 @@ pub enum LadderCommand {
     Show(View),
 }
 
+impl LadderCommand {
+    /// Whether it is about successions that were seen, so that somebody must have
+    /// searched for them.
+    pub fn needs_sights(&self) -> bool {
+        matches!(self, Self::Convert(Accept::Witnessed))
+    }
+}
+
 /// The argument of most commands.
 #[derive(Debug, Deserialize)]
 struct Argument {
@@ -101,6 +109,7 @@ struct Argument {
 enum Word {
     None,
     Handover,
+    Witnessed,
     All,
 }
 
@@ -142,6 +151,7 @@ pub fn read(params: ExecuteCommandParams) -> Result<Command> {
             let accept = match argument.accept {
                 None | Some(Word::None) => Accept::None,
                 Some(Word::Handover) => Accept::Handovers,
+                Some(Word::Witnessed) => Accept::Witnessed,
                 Some(Word::All) => Accept::All,
             };
             (argument.uri, LadderCommand::Convert(accept))
