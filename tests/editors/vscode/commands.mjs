@@ -38,6 +38,7 @@ export function commands(at) {
     const { editor } = at;
     const tank = newTank("witnessed");
     await editor.open(tank.ladder);
+    await editor.verdictIs(/no spec/);
     await editor.run("Gradus: Accept All That Sequences Show");
     await editor.text(tank.spec).waitFor();
     await editor.isDirty(tank.spec);
