@@ -7,6 +7,14 @@ use end_to_end::{Ended, Gradus, Terminal};
 
 use crate::gradus;
 
+/// What Ctrl-C in a terminal sends.
+fn interrupt(process: u32) {
+    let sent = Command::new("kill")
+        .args(["-INT", &process.to_string()])
+        .status();
+    assert!(sent.expect("`kill`").success());
+}
+
 #[test]
 fn ctrl_c_ends_a_command_that_waits_for_its_input_with_130() {
     let gradus = gradus();
@@ -20,11 +28,7 @@ fn ctrl_c_ends_a_command_that_waits_for_its_input_with_130() {
     let input = child.stdin.take();
     // Long enough for it to have begun waiting.
     std::thread::sleep(Duration::from_millis(300));
-    let sent = Command::new("kill")
-        .args(["-INT", &child.id().to_string()])
-        .status()
-        .expect("`kill`");
-    assert!(sent.success());
+    interrupt(child.id());
     let ended = Ended::of(child);
     drop(input);
     assert_eq!((ended.status, ended.answer.as_str()), (Some(130), ""));
@@ -45,21 +49,23 @@ fn endless() -> Gradus {
 
 const ENDLESS: [&str; 4] = ["suggest", "--method", "cubes", "endless.ladder"];
 
-#[test]
-fn ctrl_c_ends_a_long_computation_with_130_and_no_answer() {
-    let gradus = endless();
+/// How a command ends that is interrupted when it has worked for a while.
+fn interrupted(gradus: &Gradus, arguments: &[&str]) -> Ended {
     let child = gradus
-        .command(&ENDLESS)
+        .command(arguments)
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())
         .spawn()
         .expect("the executable");
-    std::thread::sleep(Duration::from_millis(300));
-    let sent = Command::new("kill")
-        .args(["-INT", &child.id().to_string()])
-        .status();
-    assert!(sent.expect("`kill`").success());
-    let ended = Ended::of(child);
+    std::thread::sleep(Duration::from_millis(700));
+    interrupt(child.id());
+    Ended::of(child)
+}
+
+#[test]
+fn ctrl_c_ends_a_long_computation_with_130_and_no_answer() {
+    let gradus = endless();
+    let ended = interrupted(&gradus, &ENDLESS);
     assert_eq!((ended.status, ended.answer.as_str()), (Some(130), ""));
     assert_eq!(ended.aside, "", "no progress but on a terminal");
 }
@@ -69,10 +75,7 @@ fn a_terminal_shows_what_takes_long_and_clears_it_in_the_end() {
     let gradus = endless();
     let mut terminal = Terminal::start(gradus.command(&ENDLESS));
     terminal.wait_for("Comparing endless.ladder");
-    let sent = Command::new("kill")
-        .args(["-INT", &terminal.id().to_string()])
-        .status();
-    assert!(sent.expect("`kill`").success());
+    interrupt(terminal.id());
     let (status, shown) = terminal.end();
     assert_eq!(status, Some(130));
     // The code that erases a line.
@@ -99,17 +102,9 @@ fn ctrl_c_ends_a_proof_with_130_and_no_answer() {
              t: X0*go |- @X0\nNever:\nn: {all}\n"
         ),
     );
-    let child = gradus
-        .command(&["verify", "counter.ladder", "--effort", "1000000"])
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .expect("the executable");
-    std::thread::sleep(Duration::from_millis(700));
-    let sent = Command::new("kill")
-        .args(["-INT", &child.id().to_string()])
-        .status();
-    assert!(sent.expect("`kill`").success());
-    let ended = Ended::of(child);
+    let ended = interrupted(
+        &gradus,
+        &["verify", "counter.ladder", "--effort", "1000000"],
+    );
     assert_eq!((ended.status, ended.answer.as_str()), (Some(130), ""));
 }
