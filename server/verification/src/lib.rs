@@ -48,6 +48,7 @@
 //! is told by its [`inputs::Source`].
 
 pub mod alone;
+mod answer;
 pub mod chart;
 mod compared;
 mod frame;
@@ -57,12 +58,14 @@ mod refusal;
 mod rules;
 mod run;
 mod rungs;
+mod system;
 mod trace;
 mod value;
 mod verify;
 pub mod witness;
 
+pub use answer::{Difference, Reason, Timing, Verdict, Verification, What};
 pub use refusal::Refusal;
 pub use rungs::{RungOf, rungs_of};
 pub use trace::{Step, Trace};
-pub use verify::{Difference, Reason, Timing, Verdict, Verification, What, verify};
+pub use verify::verify;

@@ -1,50 +1,21 @@
-//! The question, and its answer.
+//! The question, asked until it is answered.
 
 use std::collections::HashSet;
 
 use grafcet::Spec;
-use grafcet::evolution::{Machine, Unstable};
+use grafcet::evolution::Machine;
 use ladder::{Class, Program};
-use logic::{Cancel, Name};
+use logic::Name;
 use proof::{
     Limits, Netlist, Proof, Signal, Status, Verdict as Found, Why, check, deadlock, simplified,
 };
 
-use crate::chart::{self, Evolved};
-use crate::frame::Frame;
-use crate::inputs::Source;
+use crate::answer::{Difference, Reason, Timing, Verdict, Verification, What};
 use crate::program::{self, Bounds, Followed};
 use crate::refusal::Refusal;
-use crate::rules::{Atoms, Steps, names_of};
 use crate::run::{End, Run};
+use crate::system::{RESTLESS, System, UNSTABLE, system};
 use crate::trace::Trace;
-use crate::value::Value;
-
-/// When outputs are compared.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Timing {
-    /// After every scan.
-    #[default]
-    Scan,
-    /// When both sides have come to rest with the same inputs.
-    Settled,
-}
-
-impl Timing {
-    /// Its name: `scan`, `settled`.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Scan => "scan",
-            Self::Settled => "settled",
-        }
-    }
-}
-
-/// The first properties of a comparison, which are no outputs; no variable is
-/// called so.
-const UNSTABLE: &str = "(unstable)";
-const RESTLESS: &str = "(restless)";
-const NO_OUTPUTS: usize = 2;
 
 /// A scan of a grafcet is followed through this many evolutions, a settling of
 /// both sides through this many scans, at most.
@@ -57,96 +28,13 @@ const MOST_ALLOWED: usize = 20;
 /// So many gates are evaluated to make a trace simpler.
 const MOST_WORK: usize = 200_000_000;
 
-/// What was found about a ladder and its spec.
-#[derive(Clone, Debug)]
-pub struct Verification {
-    /// When outputs were compared.
-    pub timing: Timing,
-    /// Whether the two do the same.
-    pub verdict: Verdict,
-    /// How many environment rules restrict the inputs.
-    pub rules: usize,
-    /// The outputs that were compared.
-    pub outputs: Vec<Name>,
-    /// Outputs of the spec that the ladder does not know.
-    pub missing: Vec<Name>,
-    /// Outputs that the ladder declares and writes, and the spec does not have.
-    pub absent: Vec<Name>,
-    /// The properties of the spec, each by itself.
-    pub properties: Vec<(Name, Verdict)>,
-    /// What is left free, since time or numbers that are not followed decide it.
-    pub free: Vec<Source>,
-    /// The environment rules allow no sequence of more steps than this.
-    pub deadlock: Option<usize>,
-    /// The question as it was asked at last: the system, and as its properties
-    /// that the grafcet is unstable, that both never rest, that each output
-    /// differs, and those of the spec. Empty if it is too large to be asked.
-    pub question: Netlist,
-    /// How many states were counted, where the engine that decided counts them.
-    pub states: Option<u128>,
-}
-
-/// An answer.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Verdict {
-    /// For every sequence of inputs that the environment allows.
-    Equivalent,
-    /// There is a sequence after which it is not so.
-    Different(Difference),
-    /// Not known.
-    Unknown {
-        /// No sequence of so many steps or fewer shows anything.
-        bound: usize,
-        /// What came in the way.
-        why: Reason,
-    },
-}
-
-/// What a sequence leads to.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Difference {
-    /// What happens in the last step.
-    pub what: What,
-    /// The sequence, as the interpreters ran it.
-    pub trace: Trace,
-    /// Whether no shorter one shows anything.
-    pub is_shortest: bool,
-    /// Whether it is over after another step with the same inputs.
-    pub is_brief: bool,
-}
-
-/// What happens in the last step of a sequence.
-#[derive(Clone, Debug, PartialEq)]
-pub enum What {
-    /// These outputs differ.
-    Outputs(Vec<Name>),
-    /// The grafcet finds no stable situation.
-    Unstable(Unstable),
-    /// Something changes in every scan, with the same inputs.
-    Restless,
-    /// The property is violated.
-    Property,
-}
-
-/// Why an answer is not known.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Reason {
-    /// The limits were reached, or somebody asked to stop.
-    Limits(Why),
-    /// There is nothing to compare: the spec has no output that the ladder knows.
-    Nothing,
-    /// These outputs hold numbers that are not followed.
-    Numbers(Vec<Name>),
-    /// A sequence was found, but the interpreters do not confirm it: it needs
-    /// what is left free to be as no time and no count makes it.
-    Unconfirmed,
-    /// A scan may take more evolutions, or settling more scans, than are
-    /// followed.
-    Rounds,
-}
-
 /// Finds out whether the grafcet of `spec` does what `program` does, within the
 /// environment that the spec describes, and whether its properties hold.
+///
+/// # Errors
+///
+/// A [`Refusal`] where the program has something that is not translated, or where
+/// somebody asked to stop before there was a question.
 pub fn verify(
     program: &Program,
     spec: &Spec,
@@ -169,19 +57,6 @@ struct Verifier<'v> {
     machine: Machine,
     evolutions: usize,
     settling: usize,
-}
-
-/// The system that is asked about, and its questions.
-pub(crate) struct System {
-    pub(crate) evolved: Evolved,
-    pub(crate) frame: Frame,
-    pub(crate) outputs: Vec<Name>,
-    missing: Vec<Name>,
-    numbers: Vec<Name>,
-    /// What the properties speak of, of the ladder and not compared.
-    watched: Vec<Name>,
-    differ: Vec<Signal>,
-    never: Vec<Signal>,
 }
 
 /// What came of comparing the outputs.
@@ -245,7 +120,7 @@ impl<'v> Verifier<'v> {
                 missing: system.missing.clone(),
                 absent: self.absent(&system),
                 properties,
-                free: free(&system, &question, &self.limits.cancel),
+                free: system.free(&question, &self.limits.cancel),
                 question,
                 outputs: system.outputs,
                 deadlock: compared.deadlock,
@@ -306,7 +181,7 @@ impl<'v> Verifier<'v> {
         let mut bad = vec![frame.unstable, frame.restless];
         bad.extend(&system.differ);
         self.bounds.is_wanted()?;
-        let asked = comparison(system);
+        let asked = system.comparison();
         let alone = |verdict, asked| Compared {
             verdict,
             states: None,
@@ -462,117 +337,5 @@ impl<'v> Verifier<'v> {
         let (timing, cancel) = (self.timing, &self.limits.cancel);
         let mut run = Run::new(self.program, machine, &self.followed, shown, timing, cancel);
         (run.trace(&system.evolved.inputs, signals), run)
-    }
-}
-
-/// The system of a ladder and a spec, through so many evolutions and scans.
-pub(crate) fn system(
-    followed: &Followed,
-    spec: &Spec,
-    timing: Timing,
-    [evolutions, settling]: [usize; 2],
-    bounds: &Bounds,
-) -> Result<System, Refusal> {
-    let mut evolved = chart::follow(spec, Some(followed), evolutions, bounds)?;
-    let (mut outputs, mut missing, mut numbers) = (Vec::new(), Vec::new(), Vec::new());
-    let mut differ = Vec::new();
-    for name in evolved.outputs().to_vec() {
-        let own = followed.output(&name, &mut evolved.netlist);
-        let Some(own) = own else {
-            missing.push(name);
-            continue;
-        };
-        let other = evolved.value(&name).cloned().unwrap_or(Value::Unknown(0));
-        match own.equals(&other, &mut evolved.netlist) {
-            Some(equal) => {
-                differ.push(!equal);
-                outputs.push(name);
-            }
-            None => numbers.push(name),
-        }
-    }
-    let mut atoms = Atoms::new(followed, &mut evolved);
-    spec.environment
-        .iter()
-        .try_for_each(|rule| atoms.look_up_rule(rule))?;
-    spec.never
-        .iter()
-        .try_for_each(|it| atoms.look_up_property(it))?;
-    let atoms = atoms.known();
-    let mut frame = Frame::new(&mut evolved, timing, settling, bounds)?;
-    let differ = differ.into_iter().map(|signal| frame.of(signal)).collect();
-    let mut steps = Steps {
-        frame: &mut frame,
-        atoms,
-    };
-    let rules: Vec<Signal> = spec
-        .environment
-        .iter()
-        .map(|rule| steps.rule(rule))
-        .collect();
-    let never = spec.never.iter().map(|it| steps.property(it)).collect();
-    for rule in rules {
-        frame.netlist.constrain(rule);
-    }
-    let mut watched: Vec<Name> = Vec::new();
-    for name in spec.never.iter().flat_map(|it| names_of(&it.condition)) {
-        let is_shown = outputs.contains(&name) || watched.contains(&name);
-        if followed.writes(&name) && !is_shown {
-            watched.push(name);
-        }
-    }
-    Ok(System {
-        evolved,
-        frame,
-        outputs,
-        missing,
-        numbers,
-        watched,
-        differ,
-        never,
-    })
-}
-
-/// The system with the comparison of outputs as its properties.
-fn comparison(system: &System) -> Netlist {
-    let mut asked = system.frame.netlist.clone();
-    asked.never(UNSTABLE, system.frame.unstable);
-    asked.never(RESTLESS, system.frame.restless);
-    for (name, differ) in system.outputs.iter().zip(&system.differ) {
-        asked.never(name.clone(), *differ);
-    }
-    asked
-}
-
-/// What is left free and can tell on the outputs that are compared; nothing where
-/// somebody asked to stop.
-fn free(system: &System, question: &Netlist, cancel: &Cancel) -> Vec<Source> {
-    let outputs: Vec<usize> = (NO_OUTPUTS..NO_OUTPUTS + system.outputs.len()).collect();
-    let inputs = question.cone(&outputs, cancel).map(|cone| cone.inputs);
-    let sources = inputs
-        .iter()
-        .flatten()
-        .filter_map(|at| system.evolved.inputs.sources.get(*at));
-    let is_free = |source: &&Source| !matches!(source, Source::Bit(_) | Source::Choice { .. });
-    sources.filter(is_free).cloned().collect()
-}
-
-impl Verification {
-    /// Whether all is proved: the outputs, and every property.
-    pub fn is_proved(&self) -> bool {
-        let all = self.properties.iter().map(|(_, verdict)| verdict);
-        std::iter::once(&self.verdict)
-            .chain(all)
-            .all(|it| *it == Verdict::Equivalent)
-    }
-
-    /// Whether somebody asked to stop before all was known.
-    pub fn is_cancelled(&self) -> bool {
-        let all = self.properties.iter().map(|(_, verdict)| verdict);
-        let is_cancelled = |verdict: &Verdict| {
-            let why = Reason::Limits(Why::Cancelled);
-            matches!(verdict, Verdict::Unknown { why: own, .. } if *own == why)
-        };
-        std::iter::once(&self.verdict).chain(all).any(is_cancelled)
     }
 }

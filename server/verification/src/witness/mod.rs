@@ -31,7 +31,7 @@ use recovery::successions::{Evidence, Sights, Witness};
 use crate::Timing;
 use crate::program::{self, Bounds};
 use crate::refusal::Refusal;
-use crate::verify::system;
+use crate::system::system;
 use pairs::Pairs;
 use seen::Confirming;
 use watch::{Ask, Watch};

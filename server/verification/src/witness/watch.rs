@@ -9,7 +9,7 @@ use proof::{Gates, Limits, Netlist, Signal, Sought, Trace, seek};
 use super::pairs::{Held, Pairs};
 use crate::inputs::{Inputs, Source};
 use crate::program::Followed;
-use crate::verify::System;
+use crate::system::System;
 
 /// Something that is looked for.
 #[derive(Clone, Debug, PartialEq, Eq)]
