@@ -208,9 +208,15 @@ impl<'k> Store<'k> {
         }
     }
 
+    /// Whether a name leads to one variable or bit of a word, whatever indices are.
+    fn is_direct(&self, name: &str) -> bool {
+        let word = bit_of_word(name).map_or(name, |(word, _)| word);
+        self.names.is_stored(word)
+    }
+
     /// Whether a variable is on.
     pub(super) fn is_on(&mut self, name: &str) -> Result<Signal, Refusal> {
-        if name.contains('[') && !self.names.is_stored(name) {
+        if name.contains('[') && !self.is_direct(name) {
             let value = self.computed(name, false, |store, stored| store.read(name, stored))?;
             return Ok(self.when(&value, name, Datum::is_on));
         }
@@ -275,7 +281,7 @@ impl<'k> Store<'k> {
 
     /// Gives a variable a value under a condition.
     pub(super) fn write(&mut self, name: &str, value: &Value, when: Signal) -> Result<(), Refusal> {
-        if !name.contains('[') || self.names.is_stored(name) {
+        if !name.contains('[') || self.is_direct(name) {
             let key = self.key(name);
             self.put(key, value, when);
             return Ok(());
