@@ -1,7 +1,24 @@
-//! The constants that a spec compares variables with.
+//! What a spec looks at: its variables, and the constants that it compares them
+//! with.
 
 use grafcet::Spec;
+use grafcet::evolution::Net;
 use logic::{Atom, Datum, Expr, Name};
+
+use crate::rules::names_of;
+
+/// The variables of a spec, as it calls them.
+pub(crate) fn names(spec: &Spec) -> Vec<Name> {
+    let mut names = Net::of(&spec.grafcet).variables;
+    let rules = spec.environment.iter();
+    let expressions = rules.flat_map(|rule| [&rule.left, &rule.right]);
+    let expressions = expressions.chain(spec.never.iter().map(|it| &it.condition));
+    for name in expressions.flat_map(names_of) {
+        let plain = grafcet::is_in_next_scan(&name).map(Name::from);
+        names.push(plain.unwrap_or(name));
+    }
+    names
+}
 
 /// Each variable with a constant that it is compared with.
 pub(crate) fn constants(spec: &Spec) -> Vec<(Name, Datum)> {

@@ -50,6 +50,7 @@
 pub mod alone;
 pub mod chart;
 mod compared;
+mod domain;
 mod frame;
 pub mod inputs;
 pub mod program;
@@ -61,6 +62,7 @@ mod trace;
 mod value;
 mod verify;
 pub mod witness;
+mod word;
 
 pub use refusal::Refusal;
 pub use rungs::{RungOf, rungs_of};

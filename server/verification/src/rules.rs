@@ -15,7 +15,7 @@ use crate::chart::Evolved;
 use crate::frame::Frame;
 use crate::program::Followed;
 use crate::refusal::Refusal;
-use crate::value::{Value, applied};
+use crate::value::Value;
 
 /// The atoms of rules and properties, at the end of a scan.
 pub(crate) struct Atoms<'s> {
@@ -73,10 +73,7 @@ impl<'s> Atoms<'s> {
                     None => self.value(plain(side)),
                 });
                 let net = &mut self.evolved.netlist;
-                let compared = applied(net, &[&sides[0], &sides[1]], |both| {
-                    both[0].compares(it.relation, both[1]).into()
-                });
-                let on = compared.and_then(|it| it.on(net));
+                let on = sides[0].compares(net, it.relation, &sides[1]);
                 self.know(atom, on, label)
             }
         }

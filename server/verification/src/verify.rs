@@ -537,8 +537,7 @@ fn free(system: &System) -> Vec<Source> {
         .inputs
         .iter()
         .filter_map(|at| system.evolved.inputs.sources.get(*at));
-    let is_free = |source: &&Source| !matches!(source, Source::Bit(_) | Source::Choice { .. });
-    sources.filter(is_free).cloned().collect()
+    sources.filter(|it| !it.is_given()).cloned().collect()
 }
 
 impl Verification {

@@ -7,7 +7,7 @@ use proof::{Gates, Signal};
 use super::Pass;
 use super::state::State;
 use crate::inputs::Source;
-use crate::value::{Value, applied};
+use crate::value::Value;
 
 impl Pass<'_> {
     /// A variable that the grafcet does not write: the ladder's, if the ladder
@@ -41,7 +41,7 @@ impl Pass<'_> {
                         let text = self.net.variables[*at].to_string();
                         self.opaque(&text, vec![*number])
                     }
-                    (None, Value::Known(_)) => Signal::FALSE,
+                    (None, _) => Signal::FALSE,
                 }
             }
             Condition::Comparison {
@@ -78,17 +78,19 @@ impl Pass<'_> {
         state: &State,
     ) -> Signal {
         let sides = [operand(left, state), operand(right, state)];
-        let compared = applied(&mut self.netlist, &[&sides[0], &sides[1]], |both| {
-            both[0].compares(relation, both[1]).into()
-        });
-        if let Some(on) = compared.and_then(|it| it.on(&mut self.netlist)) {
-            return on;
+        if let Some(holds) = sides[0].compares(&mut self.netlist, relation, &sides[1]) {
+            return holds;
         }
         let mut unknowns: Vec<usize> = sides
             .iter()
             .filter_map(|side| match side {
                 Value::Unknown(number) => Some(*number),
                 Value::Known(_) => None,
+                // What it is at this moment.
+                Value::Word(_) => {
+                    self.unknowns += 1;
+                    Some(self.unknowns)
+                }
             })
             .collect();
         unknowns.sort_unstable();

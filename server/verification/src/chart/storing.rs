@@ -89,7 +89,7 @@ impl Pass<'_> {
                 let source = crate::inputs::Source::Opaque(name.clone().into());
                 self.inputs.free(&mut self.netlist, &name, source)
             }
-            (None, Value::Known(_)) => Signal::FALSE,
+            (None, _) => Signal::FALSE,
         };
         state.kept[at] = self.netlist.ite(when, on, state.kept[at]);
     }

@@ -35,7 +35,7 @@ use self::store::{Frees, Given, Store};
 use crate::compared;
 use crate::inputs::Inputs;
 use crate::refusal::Refusal;
-use crate::value::{Value, applied};
+use crate::value::Value;
 
 /// So often a program is followed to find the values of its numbers.
 const MOST_PASSES: usize = 400;
@@ -115,6 +115,14 @@ pub fn follow(
     for (name, constant) in spec.into_iter().flat_map(compared::constants) {
         let name = machine.names().resolved(&name, &|_| None).into_owned();
         knowledge.compares(&name.into(), constant);
+    }
+    for name in spec.into_iter().flat_map(compared::names) {
+        // Of what both look at, the one may look at bits and the other at the whole.
+        let name = machine.names().resolved(&name, &|_| None).into_owned();
+        match bit_of_word(&name) {
+            Some((word, _)) => knowledge.splits(&word.into()),
+            None => knowledge.looks_at_whole(&name.into()),
+        }
     }
     let mut work = 0;
     for _ in 0..MOST_PASSES {
@@ -211,11 +219,30 @@ fn given(program: &Program, machine: &Machine<'_>) -> Given {
             }
         }
     }
+    let widths = program.declarations.iter().filter_map(|declaration| {
+        let width = width_of(declaration.data_type.as_deref()?)?;
+        Some((declaration.name.clone(), width))
+    });
     Given {
         initial,
         constants,
         mixed,
+        widths: widths.collect(),
     }
+}
+
+/// How many bits a whole number of this type has, and whether the highest is a
+/// sign.
+fn width_of(data_type: &str) -> Option<(u32, bool)> {
+    Some(match &*data_type.to_ascii_uppercase() {
+        "SINT" => (8, true),
+        "INT" => (16, true),
+        "DINT" => (32, true),
+        "USINT" | "BYTE" => (8, false),
+        "UINT" | "WORD" => (16, false),
+        "UDINT" | "DWORD" => (32, false),
+        _ => return None,
+    })
 }
 
 /// The orders that a scan follows, one after the other.
@@ -389,6 +416,12 @@ impl Followed {
         self.value(name).map_or(&[], Value::cases)
     }
 
+    /// The bits of a whole number that is followed by its bits, from the lowest to
+    /// the sign, when a scan has ended. None of all else.
+    pub fn bits(&self, name: &str) -> &[Signal] {
+        self.value(name).map_or(&[], Value::bits)
+    }
+
     /// The variables that are followed or free, by name.
     pub fn variables(&self) -> impl Iterator<Item = &Name> {
         self.values.keys()
@@ -424,11 +457,11 @@ impl Followed {
             return Some(value.clone());
         }
         if let Some((word, bit)) = self.bit(name) {
-            let of = |word: &[Datum]| Datum::Bool(word[0].integer() >> bit & 1 == 1);
-            return match word {
-                Value::Unknown(word) => Some(Value::Unknown(bit_of_unknown(*word, bit))),
-                Value::Known(_) => applied(net, &[word], of).or(Some(Value::Unknown(0))),
-            };
+            return Some(match (word.rounded(net), word) {
+                (Some(word), _) => Value::bit(word.bit(bit)),
+                (None, Value::Unknown(word)) => Value::Unknown(bit_of_unknown(*word, bit)),
+                (None, _) => Value::Unknown(0),
+            });
         }
         let value = self.untouched.get(&self.resolved(name))?;
         Some(Value::constant(*value))

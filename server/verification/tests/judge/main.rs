@@ -19,3 +19,4 @@ mod beside;
 mod charts;
 mod corpus;
 mod ladders;
+mod words;

@@ -10,15 +10,17 @@ use logic::{Datum, Name};
 use proof::{Gates, Netlist, Signal};
 
 use self::terms::is_nested;
-use super::knowledge::{Domain, Knowledge};
+use super::knowledge::Knowledge;
+use crate::domain::Kept;
 use crate::inputs::{Inputs, Source};
 use crate::refusal::Refusal;
 use crate::value::{MOST_VALUES, Value, applied, chosen, gathered};
+use crate::word::Word;
 
-/// A latch that stands for one value of a variable.
-struct Kept {
+/// A latch, and what it stands for.
+struct Latched {
     variable: Name,
-    value: Datum,
+    kept: Kept,
     latch: Signal,
 }
 
@@ -34,6 +36,9 @@ pub(super) struct Given {
     pub(super) constants: HashMap<Name, Datum>,
     /// Instances that timers or counters of different kinds share.
     pub(super) mixed: HashSet<Name>,
+    /// How many bits whole numbers have by their type, and whether the highest is
+    /// a sign.
+    pub(super) widths: HashMap<Name, (u32, bool)>,
 }
 
 /// All variables at one point of a scan.
@@ -44,11 +49,13 @@ pub(super) struct Store<'k> {
     given: &'k Given,
     knowledge: &'k mut Knowledge,
     now: BTreeMap<Name, Value>,
-    kept: Vec<Kept>,
+    kept: Vec<Latched>,
     /// The variables whose unknown value is the same throughout a run of scans'
     /// inputs, by the number of the unknown.
     outside: HashMap<usize, Name>,
     unknowns: usize,
+    /// The numbers of words that were too large to be computed with.
+    large: HashMap<Word, usize>,
     bits_of: BTreeSet<Name>,
     /// Names for what is free and is no variable.
     frees: Frees,
@@ -68,6 +75,7 @@ impl<'k> Store<'k> {
             kept: Vec::new(),
             outside: HashMap::new(),
             unknowns: 0,
+            large: HashMap::new(),
             bits_of: BTreeSet::new(),
             frees: HashMap::new(),
             tried: 0,
@@ -122,6 +130,7 @@ impl<'k> Store<'k> {
             Some((word, bit)) => {
                 let word: Name = word.into();
                 if self.knowledge.whole.contains(&word) {
+                    self.knowledge.splits(&word);
                     return Key::BitOf(word, bit);
                 }
                 if self.now.contains_key(&word) {
@@ -146,38 +155,19 @@ impl<'k> Store<'k> {
 
     /// What is stored under a very name when the scan begins.
     fn begin(&mut self, name: &Name) -> Value {
-        let domain = self.knowledge.written.get(name).cloned();
-        let values = match domain {
-            Some(Domain::Values(values)) => values,
-            Some(Domain::Unknown) => return self.unknown(),
-            None => return self.given_from_outside(name),
+        let Some(domain) = self.knowledge.written.get(name) else {
+            return self.given_from_outside(name);
         };
-        let keep = |store: &mut Self, value: Datum, latch: Signal| {
-            let variable = name.clone();
-            let kept = Kept {
-                variable,
-                value,
-                latch,
-            };
-            store.kept.push(kept);
+        let Some((value, latches)) = domain.begin(&mut self.net, name) else {
+            return self.unknown();
         };
-        match values.as_slice() {
-            [value] => Value::constant(*value),
-            [Datum::Bool(initial), Datum::Bool(_)] => {
-                let latch = self.net.latch(name.clone(), *initial);
-                keep(self, true.into(), latch);
-                Value::bit(latch)
-            }
-            _ => {
-                let mut cases = Vec::new();
-                for (at, value) in values.iter().enumerate() {
-                    let latch = self.net.latch(format!("{name}={value}"), at == 0);
-                    keep(self, *value, latch);
-                    cases.push((*value, latch));
-                }
-                gathered(&mut self.net, cases)
-            }
-        }
+        let latches = latches.into_iter().map(|(kept, latch)| Latched {
+            variable: name.clone(),
+            kept,
+            latch,
+        });
+        self.kept.extend(latches);
+        value
     }
 
     /// A variable that the program does not write.
@@ -185,6 +175,11 @@ impl<'k> Store<'k> {
         let kind = self.names.kind(name);
         if let Some(value) = self.given.constants.get(name) {
             return Value::constant(*value);
+        }
+        if self.is_word_from_outside(name) {
+            let (bits, is_signed) = self.given.widths.get(name).copied().unwrap_or((64, true));
+            let word = self.inputs.word(&mut self.net, name, bits, is_signed);
+            return Value::Word(word);
         }
         let numbers = self.knowledge.numbers.get(name).cloned();
         match numbers {
@@ -208,6 +203,21 @@ impl<'k> Store<'k> {
         }
     }
 
+    /// Whether no few values stand for a variable that the program does not write,
+    /// but its bits do: it is looked at by these and as a whole, or a whole number
+    /// that is copied or computed with.
+    fn is_word_from_outside(&self, name: &Name) -> bool {
+        let is_looked_at =
+            || self.knowledge.whole.contains(name) && self.knowledge.split.contains(name);
+        let is_computed_with = || self.knowledge.numbers.get(name) == Some(&None);
+        let is_word = match self.names.kind(name) {
+            Some(Kind::Integer) => is_looked_at() || is_computed_with(),
+            None => is_looked_at(),
+            Some(Kind::Bool | Kind::Real) => false,
+        };
+        is_word && !self.is_written(name)
+    }
+
     /// Whether a name leads to one variable or bit of a word, whatever indices are.
     fn is_direct(&self, name: &str) -> bool {
         let word = bit_of_word(name).map_or(name, |(word, _)| word);
@@ -218,7 +228,7 @@ impl<'k> Store<'k> {
     pub(super) fn is_on(&mut self, name: &str) -> Result<Signal, Refusal> {
         if name.contains('[') && !self.is_direct(name) {
             let value = self.computed(name, false, |store, stored| store.read(name, stored))?;
-            return Ok(self.when(&value, name, Datum::is_on));
+            return Ok(self.on(&value, name));
         }
         if let Some(value) = Datum::constant(name)
             && !self.is_written(name)
@@ -227,24 +237,29 @@ impl<'k> Store<'k> {
         }
         match self.key(name) {
             Key::Whole(name) => {
+                self.is_looked_at_whole(&name);
                 let value = self.load(&name);
-                Ok(self.when(&value, &name, Datum::is_on))
+                Ok(self.on(&value, &name))
             }
             Key::BitOf(word, bit) => {
                 let value = self.load(&word);
-                let is_on = |value: Datum| value.integer() >> bit & 1 == 1;
-                Ok(self.when(&value, &format!("{word}.{bit}"), is_on))
+                Ok(match (value.rounded(&mut self.net), value) {
+                    (Some(word), _) => word.bit(bit),
+                    (None, Value::Unknown(number)) => {
+                        self.free(&format!("{word}.{bit}"), vec![number])
+                    }
+                    (None, _) => Signal::FALSE,
+                })
             }
         }
     }
 
-    /// When a value is one that `holds` picks; free under this text if the
-    /// value is not followed.
-    fn when(&mut self, value: &Value, text: &str, holds: impl Fn(Datum) -> bool) -> Signal {
-        match (value.when(&mut self.net, holds), value) {
+    /// When a value is on; free under this text if it is not followed.
+    fn on(&mut self, value: &Value, text: &str) -> Signal {
+        match (value.on(&mut self.net), value) {
             (Some(signal), _) => signal,
             (None, Value::Unknown(number)) => self.free(text, vec![*number]),
-            (None, Value::Known(_)) => Signal::FALSE,
+            (None, _) => Signal::FALSE,
         }
     }
 
@@ -306,30 +321,16 @@ impl<'k> Store<'k> {
     fn put(&mut self, key: Key, value: &Value, when: Signal) {
         let (name, value) = match key {
             Key::Whole(name) => {
-                let converted = match value {
-                    Value::Known(cases) => {
-                        let cases = cases.iter();
-                        let cases =
-                            cases.map(|(value, when)| (self.names.converted(&name, *value), *when));
-                        let cases = cases.collect();
-                        gathered(&mut self.net, cases)
-                    }
-                    unknown => unknown.clone(),
-                };
-                let bit = bit_of_word(&name).is_some();
-                let converted = match bit {
-                    true => Value::bit(self.when(&converted, &name, Datum::is_on)),
-                    false => converted,
+                let converted = self.converted(&name, value);
+                let converted = match bit_of_word(&name) {
+                    Some(_) => Value::bit(self.on(&converted, &name)),
+                    None => converted,
                 };
                 (name, converted)
             }
             Key::BitOf(word, bit) => {
-                let before = self.load(&word);
-                let changed = applied(&mut self.net, &[&before, value], |both| {
-                    let rest = both[0].integer() & !(1 << bit);
-                    Datum::Integer(rest | i64::from(both[1].is_on()) << bit)
-                });
-                let changed = changed.unwrap_or_else(|| self.unknown());
+                self.knowledge.writes_bit(&word, bit);
+                let changed = self.with_bit(&word, bit, value);
                 (word, changed)
             }
         };
@@ -341,6 +342,47 @@ impl<'k> Store<'k> {
             _ => self.unknown(),
         };
         self.now.insert(name, after);
+    }
+
+    /// A value turned into the declared type of a variable.
+    fn converted(&mut self, name: &Name, value: &Value) -> Value {
+        if let Value::Word(word) = value {
+            match self.names.kind(name) {
+                Some(Kind::Bool) => return Value::bit(word.on(&mut self.net)),
+                Some(Kind::Integer) => return Value::Word(word.clone().number()),
+                None => return value.clone(),
+                Some(Kind::Real) => {}
+            }
+        }
+        let Some(cases) = value.listed(&mut self.net) else {
+            return match value {
+                Value::Unknown(_) => value.clone(),
+                _ => self.unknown(),
+            };
+        };
+        let cases = cases.iter();
+        let cases = cases.map(|(value, when)| (self.names.converted(name, *value), *when));
+        let cases = cases.collect();
+        gathered(&mut self.net, cases)
+    }
+
+    /// What a word holds, with a bit changed.
+    fn with_bit(&mut self, word: &Name, bit: u32, value: &Value) -> Value {
+        let before = self.load(word);
+        if let Value::Known(_) = before {
+            let changed = applied(&mut self.net, &[&before, value], |both| {
+                let rest = both[0].integer() & !(1 << bit);
+                Datum::Integer(rest | i64::from(both[1].is_on()) << bit)
+            });
+            if let Some(changed) = changed {
+                return changed;
+            }
+        }
+        let on = self.on(value, &format!("{word}.{bit}"));
+        match before.rounded(&mut self.net) {
+            Some(word) => Value::Word(word.with(bit, on)),
+            None => self.unknown(),
+        }
     }
 
     /// What everything holds now.

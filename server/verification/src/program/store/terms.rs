@@ -29,6 +29,13 @@ impl Store<'_> {
     ) -> Result<Signal, Refusal> {
         self.note_comparison(left, right);
         self.note_comparison(right, left);
+        let sides = [self.direct(left), self.direct(right)];
+        if let [Some(one), Some(other)] = &sides
+            && [one, other].iter().any(|it| matches!(it, Value::Word(_)))
+            && let Some(holds) = one.compares(&mut self.net, relation, other)
+        {
+            return Ok(holds);
+        }
         let is_simple = match (Datum::constant(left), Datum::constant(right)) {
             (None, None) => false,
             _ => is_plain(left) && is_plain(right),
@@ -72,15 +79,38 @@ impl Store<'_> {
 
     /// The value of an operand, which may be a term.
     pub(in crate::program) fn value_of(&mut self, text: &str) -> Result<Value, Refusal> {
-        if is_plain(text) && !text.contains('[') && Datum::constant(text).is_none() {
-            // What is copied as it is need not be tried value by value.
-            if let Key::Whole(name) = self.key(text)
-                && (self.is_written(&name) || self.names.kind(&name) == Some(Kind::Bool))
-            {
-                return Ok(self.load(&name));
-            }
+        // What is copied as it is need not be tried value by value.
+        if Datum::constant(text).is_none()
+            && let Some(value) = self.direct(text)
+        {
+            return Ok(value);
         }
         self.computed(text, false, |store, stored| store.operand(text, stored))
+    }
+
+    /// The value of a constant, or of a variable that is followed or on or off: what
+    /// need not be computed. `None` of all else.
+    fn direct(&mut self, text: &str) -> Option<Value> {
+        if let Some(value) = Datum::constant(text).filter(|_| !self.is_written(text)) {
+            return Some(Value::constant(value));
+        }
+        if !is_plain(text) || !self.is_direct(text) {
+            return None;
+        }
+        match self.key(text) {
+            Key::BitOf(word, bit) => {
+                let word = self.load(&word).rounded(&mut self.net)?;
+                Some(Value::bit(word.bit(bit)))
+            }
+            Key::Whole(name) => {
+                let is_bit = self.names.kind(&name) == Some(Kind::Bool);
+                if !self.is_written(&name) && !is_bit && !self.is_word_from_outside(&name) {
+                    return None;
+                }
+                self.is_looked_at_whole(&name);
+                Some(self.load(&name))
+            }
+        }
     }
 
     /// The value of the machine's operand: a term that cannot be computed is a
@@ -169,8 +199,15 @@ impl Store<'_> {
                     longer.push((name, Datum::default()));
                     open.push((longer, when));
                 }
-                Value::Known(cases) => {
-                    for (value, also) in cases.into_iter().rev() {
+                value => {
+                    let Some(cases) = value.listed(&mut self.net) else {
+                        lost.push(self.number_of(&value));
+                        let mut longer = chosen;
+                        longer.push((name, Datum::default()));
+                        open.push((longer, when));
+                        continue;
+                    };
+                    for (value, also) in cases.iter().copied().rev() {
                         let when = self.net.and(when, also);
                         if when != Signal::FALSE {
                             let mut longer = chosen.clone();
@@ -189,20 +226,39 @@ impl Store<'_> {
         }
     }
 
+    /// The number of an unknown, or of a word too large to be tried value by value.
+    fn number_of(&mut self, value: &Value) -> usize {
+        let Value::Word(word) = value else {
+            self.unknowns += 1;
+            return self.unknowns;
+        };
+        if let Some(number) = self.large.get(word) {
+            return *number;
+        }
+        self.unknowns += 1;
+        self.large.insert(word.clone(), self.unknowns);
+        self.unknowns
+    }
+
     /// Notes that a variable is looked at as a number.
     fn looks_at(&mut self, name: &Name, is_simple: bool) {
-        if self.bits_of.contains(name) {
-            self.knowledge.looks_at_whole(name);
-        }
+        self.is_looked_at_whole(name);
         if !self.is_written(name) && !is_simple {
             self.knowledge.computes_with(name);
+        }
+    }
+
+    /// Notes that a variable is looked at as a whole.
+    pub(super) fn is_looked_at_whole(&mut self, name: &Name) {
+        if self.bits_of.contains(name) || self.knowledge.split.contains(name) {
+            self.knowledge.looks_at_whole(name);
         }
         self.knowledge_of_whole(name);
     }
 
     /// A word is looked at as a whole; should its bits be looked at later in
     /// the scan, the next pass must know.
-    pub(super) fn knowledge_of_whole(&mut self, name: &Name) {
+    fn knowledge_of_whole(&mut self, name: &Name) {
         let prefix = format!("{name}.");
         let mut bits = self.now.range(Name::from(&*prefix)..);
         let is_bit = bits.next().is_some_and(|(it, _)| {
