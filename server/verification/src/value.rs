@@ -16,6 +16,9 @@ use crate::word::Word;
 /// A variable that can have more values than this is not followed.
 pub(crate) const MOST_VALUES: usize = 96;
 
+/// So many pairs of values are compared pair by pair, more by their bits.
+const FEW_PAIRS: usize = 64;
+
 /// What a variable holds at some point of a scan.
 #[derive(Clone, Debug)]
 pub(crate) enum Value {
@@ -130,6 +133,12 @@ impl Value {
                 Some(net.any(&holds))
             }
             (Self::Known(_), Self::Word(_)) => other.compares(net, relation.mirrored(), self),
+            (Self::Known(own), Self::Known(others))
+                if own.len() * others.len() > FEW_PAIRS
+                    && let (Some(own), Some(other)) = (self.word(net), other.word(net)) =>
+            {
+                Some(own.compares(net, relation, &other))
+            }
             _ => {
                 let compared = applied(net, &[self, other], |both| {
                     both[0].compares(relation, both[1]).into()

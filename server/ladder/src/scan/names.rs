@@ -70,7 +70,8 @@ impl Names {
     /// no other name of something, no bit of a word, and has no index that can be
     /// looked up.
     pub fn is_stored(&self, name: &str) -> bool {
-        let is_index = |text: &str| text.chars().all(|c| c.is_ascii_digit() || c == ',');
+        let is_number = |text: &str| text.parse().is_ok_and(|it: i64| it.to_string() == text);
+        let is_index = |text: &str| text.split(',').all(is_number);
         let has_variable_index = match brackets(name, 0) {
             Some((open, close)) => {
                 let index = &name[open + 1..close];

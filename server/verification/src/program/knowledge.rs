@@ -1,5 +1,6 @@
 //! What passes over a program have found out about its variables.
 
+use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
 
 use logic::{Datum, Name};
@@ -36,8 +37,8 @@ pub(super) struct Knowledge {
     grown: BTreeMap<Name, usize>,
     /// Whether anything has been learnt.
     has_learnt: bool,
-    /// Whether anything but values has been learnt: how variables are looked at, and
-    /// which are written.
+    /// Whether anything but values has been learnt of variables that were followed
+    /// in another way before: how they are looked at, and that they are written.
     has_learnt_uses: bool,
 }
 
@@ -48,24 +49,31 @@ impl Knowledge {
         std::mem::take(&mut self.has_learnt) || has_learnt_uses
     }
 
-    /// Whether this pass has found out how variables are used. Then it has followed
-    /// some in another way than the next will, and their values do not count.
+    /// Whether this pass has found out of variables how they are used when it had
+    /// begun to follow them in another way. Then its values do not count.
     pub(super) fn has_learnt_uses(&self) -> bool {
         self.has_learnt_uses
     }
 
+    fn learns_use(&mut self, is_followed: bool) {
+        self.has_learnt = true;
+        self.has_learnt_uses |= is_followed;
+    }
+
     /// The program writes the variable, which is `initial` at first.
-    pub(super) fn writes(&mut self, name: &Name, initial: Datum) {
+    pub(super) fn writes(&mut self, name: &Name, initial: Datum, is_followed: bool) {
         if !self.written.contains_key(name) {
             let domain = Domain::Values(vec![initial]);
             self.written.insert(name.clone(), domain);
-            self.has_learnt_uses = true;
+            self.learns_use(is_followed);
         }
     }
 
     /// Something else than a timer or counter writes the variable.
     pub(super) fn writes_by_hand(&mut self, name: &Name) {
-        self.has_learnt_uses |= self.by_hand.insert(name.clone());
+        if self.by_hand.insert(name.clone()) {
+            self.learns_use(true);
+        }
     }
 
     /// The values of the variable grow in this pass: what counts on and on is not
@@ -128,12 +136,16 @@ impl Knowledge {
 
     /// The word is looked at as a whole.
     pub(super) fn looks_at_whole(&mut self, word: &Name) {
-        self.has_learnt_uses |= self.whole.insert(word.clone());
+        if self.whole.insert(word.clone()) {
+            self.learns_use(true);
+        }
     }
 
     /// A bit of a word is looked at that is looked at as a whole too.
-    pub(super) fn splits(&mut self, word: &Name) {
-        self.has_learnt_uses |= self.split.insert(word.clone());
+    pub(super) fn splits(&mut self, word: &Name, is_followed: bool) {
+        if self.split.insert(word.clone()) {
+            self.learns_use(is_followed);
+        }
     }
 
     /// A bit of a word is written that is looked at as a whole too.
@@ -141,29 +153,31 @@ impl Knowledge {
         let bits = self.written_bits.entry(word.clone()).or_default();
         let before = *bits;
         *bits |= 1_u64.checked_shl(bit).unwrap_or(0);
-        self.has_learnt_uses |= *bits != before;
+        self.has_learnt |= *bits != before;
         if bits.count_ones() > MOST_WRITTEN_BITS {
             self.goes_by_bits(word);
         }
     }
 
     /// The program computes with a variable that it does not write.
-    pub(super) fn computes_with(&mut self, name: &Name) {
-        let known = self.numbers.insert(name.clone(), None);
-        self.has_learnt_uses |= known != Some(None);
+    pub(super) fn computes_with(&mut self, name: &Name, is_followed: bool) {
+        if self.numbers.insert(name.clone(), None) != Some(None) {
+            self.learns_use(is_followed);
+        }
     }
 
     /// The program compares a variable that it does not write with a constant.
-    pub(super) fn compares(&mut self, name: &Name, constant: Datum) {
-        let all = self.numbers.entry(name.clone()).or_insert_with(|| {
-            self.has_learnt_uses = true;
-            Some(vec![Datum::Integer(0)])
-        });
-        if let Some(all) = all
-            && !all.iter().any(|known| known.key() == constant.key())
-        {
+    pub(super) fn compares(&mut self, name: &Name, constant: Datum, is_followed: bool) {
+        let all = self.numbers.entry(name.clone());
+        let is_new = matches!(all, Entry::Vacant(_));
+        let all = all.or_insert_with(|| Some(vec![Datum::Integer(0)]));
+        let is_known = |all: &Vec<Datum>| all.iter().any(|it| it.key() == constant.key());
+        let all = all.as_mut().filter(|all| !is_known(all));
+        if let Some(all) = all {
             all.push(constant);
-            self.has_learnt_uses = true;
+            self.learns_use(is_followed);
+        } else if is_new {
+            self.learns_use(is_followed);
         }
     }
 }

@@ -114,13 +114,13 @@ pub fn follow(
     let mut knowledge = Knowledge::default();
     for (name, constant) in spec.into_iter().flat_map(compared::constants) {
         let name = machine.names().resolved(&name, &|_| None).into_owned();
-        knowledge.compares(&name.into(), constant);
+        knowledge.compares(&name.into(), constant, false);
     }
     for name in spec.into_iter().flat_map(compared::names) {
         // Of what both look at, the one may look at bits and the other at the whole.
         let name = machine.names().resolved(&name, &|_| None).into_owned();
         match bit_of_word(&name) {
-            Some((word, _)) => knowledge.splits(&word.into()),
+            Some((word, _)) => knowledge.splits(&word.into(), false),
             None => knowledge.looks_at_whole(&name.into()),
         }
     }

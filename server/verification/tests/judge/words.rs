@@ -14,7 +14,7 @@ const BITS: [&str; 3] = ["q0", "q1", "q2"];
 
 /// Words that the program writes, with their types; the last have none, as
 /// members of structures.
-const WORDS: [(&str, &str); 7] = [
+const WORDS: [(&str, &str); 8] = [
     ("narrow", "SINT"),
     ("short", "INT"),
     ("wide", "DINT"),
@@ -22,6 +22,7 @@ const WORDS: [(&str, &str); 7] = [
     ("many", "DWORD"),
     ("Unit.Flags", ""),
     ("Unit.Rows[1]", ""),
+    ("Unit.Rows[n]", ""),
 ];
 
 /// Words that come from the plant.
@@ -60,8 +61,9 @@ impl Maker<'_> {
         for (name, kind) in WORDS.iter().filter(|(_, kind)| !kind.is_empty()) {
             out += &format!("internal {name} : {kind}\n");
         }
+        out += "internal n : DINT\n";
         // What has no type is known to be a word by its bits.
-        out += "\nrung: Plant.State.2 -> q2\n";
+        out += "\nrung: Plant.State.2 -> q2\nrung: i0 -> n := 1\n";
         for _ in 0..4 + self.random.below(6) {
             let condition = self.condition(2);
             out += &format!("rung: {condition} -> {}\n", self.output());
@@ -93,7 +95,8 @@ impl Maker<'_> {
     }
 
     fn output(&mut self) -> String {
-        match self.random.below(9) {
+        match self.random.below(10) {
+            9 => format!("n := {}", self.random.one_of(&["-1", "0", "1", "2"])),
             0..=4 => {
                 let word = self.word();
                 let bit = self.bit_of(word);

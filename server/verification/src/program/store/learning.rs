@@ -16,7 +16,8 @@ impl Store<'_> {
     pub(super) fn note_write(&mut self, name: &Name, value: &Value) {
         let is_new = !self.is_written(name);
         let initial = self.initially(name);
-        self.knowledge.writes(name, initial);
+        let is_followed = self.now.contains_key(name);
+        self.knowledge.writes(name, initial, is_followed);
         self.is_looked_at_whole(name);
         // What is written in one stroke can be had: the rest is found by
         // following the scan.

@@ -130,7 +130,8 @@ impl<'k> Store<'k> {
             Some((word, bit)) => {
                 let word: Name = word.into();
                 if self.knowledge.whole.contains(&word) {
-                    self.knowledge.splits(&word);
+                    let is_followed = self.now.contains_key(&word);
+                    self.knowledge.splits(&word, is_followed);
                     return Key::BitOf(word, bit);
                 }
                 if self.now.contains_key(&word) {
@@ -227,8 +228,7 @@ impl<'k> Store<'k> {
     /// Whether a variable is on.
     pub(super) fn is_on(&mut self, name: &str) -> Result<Signal, Refusal> {
         if name.contains('[') && !self.is_direct(name) {
-            let value = self.computed(name, false, |store, stored| store.read(name, stored))?;
-            return Ok(self.on(&value, name));
+            return self.is_any_on(name);
         }
         if let Some(value) = Datum::constant(name)
             && !self.is_written(name)
@@ -252,6 +252,36 @@ impl<'k> Store<'k> {
                 })
             }
         }
+    }
+
+    /// Whether the variable is on that a name with variable indices leads to.
+    fn is_any_on(&mut self, name: &str) -> Result<Signal, Refusal> {
+        if is_nested(name) {
+            return Err(Refusal::NestedIndex(name.into()));
+        }
+        let Some(targets) = self.targets(name) else {
+            let unknown = self.unknown();
+            return Ok(self.on(&unknown, name));
+        };
+        let mut all = Vec::with_capacity(targets.len());
+        for (target, when) in targets {
+            // Some names are not found; they are what they are called.
+            let on = match self.is_direct(&target) || !target.contains('[') {
+                true => self.is_on(&target)?,
+                false => Signal::FALSE,
+            };
+            all.push(self.net.and(when, on));
+        }
+        Ok(self.net.any(&all))
+    }
+
+    /// The variables that a name with variable indices may lead to, and when. `None`
+    /// if an index is not followed.
+    fn targets(&mut self, name: &str) -> Option<Vec<(String, Signal)>> {
+        let targets = self.branch(false, |store, stored| {
+            store.names.resolved(name, stored).into_owned()
+        });
+        targets.ok()
     }
 
     /// When a value is on; free under this text if it is not followed.
@@ -304,10 +334,7 @@ impl<'k> Store<'k> {
         if is_nested(name) {
             return Err(Refusal::NestedIndex(name.into()));
         }
-        let targets = self.branch(false, |store, stored| {
-            store.names.resolved(name, stored).into_owned()
-        });
-        let Ok(targets) = targets else {
+        let Some(targets) = self.targets(name) else {
             return Err(Refusal::UnknownTarget(name.into()));
         };
         for (target, also) in targets {

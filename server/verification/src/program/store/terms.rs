@@ -9,7 +9,7 @@ use proof::{Gates, Signal};
 
 use super::{Key, Store};
 use crate::refusal::Refusal;
-use crate::value::{MOST_VALUES, Value, gathered};
+use crate::value::{MOST_VALUES, Value, chosen, gathered};
 
 /// Most combinations of values that one term or index is tried with.
 const MOST_CASES: usize = 4_096;
@@ -31,7 +31,6 @@ impl Store<'_> {
         self.note_comparison(right, left);
         let sides = [self.direct(left), self.direct(right)];
         if let [Some(one), Some(other)] = &sides
-            && [one, other].iter().any(|it| matches!(it, Value::Word(_)))
             && let Some(holds) = one.compares(&mut self.net, relation, other)
         {
             return Ok(holds);
@@ -73,7 +72,8 @@ impl Store<'_> {
             && let Key::Whole(name) = self.key(name)
             && !self.is_written(&name)
         {
-            self.knowledge.compares(&name, constant);
+            let is_followed = self.now.contains_key(&name);
+            self.knowledge.compares(&name, constant, is_followed);
         }
     }
 
@@ -94,8 +94,11 @@ impl Store<'_> {
         if let Some(value) = Datum::constant(text).filter(|_| !self.is_written(text)) {
             return Some(Value::constant(value));
         }
-        if !is_plain(text) || !self.is_direct(text) {
+        if !is_plain(text) {
             return None;
+        }
+        if !self.is_direct(text) {
+            return self.indexed(text);
         }
         match self.key(text) {
             Key::BitOf(word, bit) => {
@@ -113,6 +116,26 @@ impl Store<'_> {
         }
     }
 
+    /// The value of a variable with variable indices, from those that these lead to.
+    fn indexed(&mut self, text: &str) -> Option<Value> {
+        if !text.contains('[') || is_nested(text) {
+            return None;
+        }
+        let targets = self.targets(text)?;
+        let mut value: Option<Value> = None;
+        for (target, when) in targets {
+            let own = match self.is_direct(&target) {
+                true => self.direct(&target)?,
+                false => return None,
+            };
+            value = Some(match value {
+                None => own,
+                Some(others) => chosen(&mut self.net, when, &own, &others)?,
+            });
+        }
+        value.filter(|it| it.cases().len() <= MOST_VALUES)
+    }
+
     /// The value of the machine's operand: a term that cannot be computed is a
     /// variable by the name of its text.
     fn operand(&self, text: &str, stored: &ladder::scan::Stored<'_>) -> Datum {
@@ -127,10 +150,6 @@ impl Store<'_> {
             Some(value) => value,
             None => self.names.read(text, stored),
         }
-    }
-
-    pub(super) fn read(&self, name: &str, stored: &ladder::scan::Stored<'_>) -> Datum {
-        self.names.read(name, stored)
     }
 
     /// What a computation gives, for each value of what it reads.
@@ -244,7 +263,8 @@ impl Store<'_> {
     fn looks_at(&mut self, name: &Name, is_simple: bool) {
         self.is_looked_at_whole(name);
         if !self.is_written(name) && !is_simple {
-            self.knowledge.computes_with(name);
+            let is_followed = self.now.contains_key(name);
+            self.knowledge.computes_with(name, is_followed);
         }
     }
 
