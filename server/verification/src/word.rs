@@ -153,7 +153,7 @@ impl Word {
             let other = Self::constant(constant.integer());
             return Some(self.compares(net, relation, &other));
         };
-        if !(number.abs() < EXACT) {
+        if number.is_nan() || number.abs() >= EXACT {
             return None;
         }
         let (below, above) = (number.floor() as i64, number.ceil() as i64);
