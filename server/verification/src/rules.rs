@@ -64,7 +64,7 @@ impl<'s> Atoms<'s> {
             Expr::Atom(Atom::Elapsed { .. }) => Err(Refusal::RuleAboutTime(label.clone())),
             Expr::Atom(atom @ Atom::Variable(name)) => {
                 let value = self.value(plain(name));
-                let on = value.on(&mut self.evolved.netlist);
+                let on = self.ladder.ranges().on(&value, &mut self.evolved.netlist);
                 self.know(atom, on, label)
             }
             Expr::Atom(atom @ Atom::Comparison(it)) => {
@@ -73,7 +73,8 @@ impl<'s> Atoms<'s> {
                     None => self.value(plain(side)),
                 });
                 let net = &mut self.evolved.netlist;
-                let on = sides[0].compares(net, it.relation, &sides[1]);
+                let ranges = self.ladder.ranges();
+                let on = ranges.compares(net, [&sides[0], &sides[1]], it.relation);
                 self.know(atom, on, label)
             }
         }

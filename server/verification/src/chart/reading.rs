@@ -35,7 +35,11 @@ impl Pass<'_> {
             Condition::Step(at) => state.active[*at],
             Condition::Variable(at) => {
                 let value = &state.values[*at];
-                match (value.on(&mut self.netlist), value) {
+                let on = match self.ladder {
+                    Some(ladder) => ladder.ranges().on(value, &mut self.netlist),
+                    None => value.on(&mut self.netlist),
+                };
+                match (on, value) {
                     (Some(on), _) => on,
                     (None, Value::Unknown(number)) => {
                         let text = self.net.variables[*at].to_string();
@@ -78,7 +82,12 @@ impl Pass<'_> {
         state: &State,
     ) -> Signal {
         let sides = [operand(left, state), operand(right, state)];
-        if let Some(holds) = sides[0].compares(&mut self.netlist, relation, &sides[1]) {
+        let net = &mut self.netlist;
+        let holds = match self.ladder {
+            Some(it) => it.ranges().compares(net, [&sides[0], &sides[1]], relation),
+            None => sides[0].compares(net, relation, &sides[1]),
+        };
+        if let Some(holds) = holds {
             return holds;
         }
         let mut unknowns: Vec<usize> = sides

@@ -1,6 +1,5 @@
 //! What passes over a program have found out about its variables.
 
-use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
 
 use logic::{Datum, Name};
@@ -16,6 +15,15 @@ const MOST_WRITTEN_BITS: u32 = 6;
 /// as can be seen.
 const MOST_GROWTH: usize = 40;
 
+/// What is done with a number that the program does not write.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Number {
+    /// The constants that it is compared with, and 0.
+    pub(super) compared: Vec<Datum>,
+    /// Whether more is done: its very value counts.
+    pub(super) is_computed_with: bool,
+}
+
 /// Each pass over the program translates with what those before have learnt;
 /// what it learns itself is for the next. The last learns nothing.
 #[derive(Clone, Debug, Default)]
@@ -30,9 +38,8 @@ pub(super) struct Knowledge {
     pub(super) split: BTreeSet<Name>,
     /// Those of which bits are written too, and which bits.
     written_bits: BTreeMap<Name, u64>,
-    /// Variables that the program does not write and computes with: the
-    /// constants that they are compared with; `None` if more is done.
-    pub(super) numbers: BTreeMap<Name, Option<Vec<Datum>>>,
+    /// Variables that the program does not write and looks at as numbers.
+    pub(super) numbers: BTreeMap<Name, Number>,
     /// In how many passes a variable was found to have more values.
     grown: BTreeMap<Name, usize>,
     /// Whether anything has been learnt.
@@ -161,22 +168,23 @@ impl Knowledge {
 
     /// The program computes with a variable that it does not write.
     pub(super) fn computes_with(&mut self, name: &Name, is_followed: bool) {
-        if self.numbers.insert(name.clone(), None) != Some(None) {
+        let number = self.numbers.entry(name.clone()).or_default();
+        if !std::mem::replace(&mut number.is_computed_with, true) {
             self.learns_use(is_followed);
         }
     }
 
     /// The program compares a variable that it does not write with a constant.
     pub(super) fn compares(&mut self, name: &Name, constant: Datum, is_followed: bool) {
-        let all = self.numbers.entry(name.clone());
-        let is_new = matches!(all, Entry::Vacant(_));
-        let all = all.or_insert_with(|| Some(vec![Datum::Integer(0)]));
-        let is_known = |all: &Vec<Datum>| all.iter().any(|it| it.key() == constant.key());
-        let all = all.as_mut().filter(|all| !is_known(all));
-        if let Some(all) = all {
-            all.push(constant);
-            self.learns_use(is_followed);
-        } else if is_new {
+        let number = self.numbers.entry(name.clone()).or_default();
+        let mut has_learnt = false;
+        for value in [Datum::Integer(0), constant] {
+            if !number.compared.iter().any(|it| it.key() == value.key()) {
+                number.compared.push(value);
+                has_learnt = true;
+            }
+        }
+        if has_learnt {
             self.learns_use(is_followed);
         }
     }

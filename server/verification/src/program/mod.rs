@@ -17,7 +17,7 @@ mod knowledge;
 mod memory;
 mod store;
 
-use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
+use std::collections::{BTreeSet, HashMap, HashSet};
 
 use grafcet::Spec;
 use ladder::flow::{Guard, GuardSet, Order, execution};
@@ -31,7 +31,7 @@ use source::codes;
 use self::flow::{Power, Solved};
 use self::knowledge::Knowledge;
 use self::memory::Memories;
-use self::store::{Frees, Given, Store};
+use self::store::{Given, Held, Ranges, Store};
 use crate::compared;
 use crate::inputs::Inputs;
 use crate::refusal::Refusal;
@@ -48,8 +48,7 @@ pub struct Followed {
     /// What its inputs stand for.
     pub inputs: Inputs,
     names: Names,
-    values: BTreeMap<Name, Value>,
-    frees: Frees,
+    held: Held,
     /// What it writes.
     written: BTreeSet<Name>,
     /// What it declares and never looks at holds its initial value.
@@ -151,14 +150,13 @@ pub fn follow(
         if work > bounds.work {
             return Err(Refusal::TooLarge);
         }
-        let (netlist, inputs, values, frees) = store.into_values();
+        let (netlist, inputs, held) = store.into_held();
         if !knowledge.take_learnt() {
             return Ok(Followed {
                 netlist,
                 inputs,
                 names: machine.names().clone(),
-                values,
-                frees,
+                held,
                 written: knowledge.written.into_keys().collect(),
                 untouched: untouched(program, &given),
                 addresses: addresses(program),
@@ -401,7 +399,7 @@ impl Followed {
     /// name or address.
     pub(crate) fn resolved(&self, name: &str) -> Name {
         let own = self.names.resolved(name, &|_| None);
-        if self.values.contains_key(&*own) {
+        if self.held.values.contains_key(&*own) {
             return (*own).into();
         }
         match self.addresses.get(&name.to_ascii_uppercase()) {
@@ -424,20 +422,20 @@ impl Followed {
 
     /// The variables that are followed or free, by name.
     pub fn variables(&self) -> impl Iterator<Item = &Name> {
-        self.values.keys()
+        self.held.values.keys()
     }
 
     /// What a variable holds when the scan has ended, called by name or address.
     /// `None` if the ladder never looks at it.
     fn value(&self, name: &str) -> Option<&Value> {
-        self.values.get(&self.resolved(name))
+        self.held.values.get(&self.resolved(name))
     }
 
     /// The same of a bit of a word that is looked at as a whole.
     fn bit(&self, name: &str) -> Option<(&Value, u32)> {
         let name = self.resolved(name);
         let (word, bit) = bit_of_word(&name)?;
-        Some((self.values.get(word)?, bit))
+        Some((self.held.values.get(word)?, bit))
     }
 
     /// Whether the ladder mentions or declares a variable.
@@ -476,7 +474,12 @@ impl Followed {
     pub(crate) fn free(&self, text: &str, unknowns: &[usize]) -> Option<Signal> {
         let of_ladder = unknowns.iter().map(|it| word_of_unknown(*it));
         let key = (text.to_owned(), of_ladder.collect());
-        self.frees.get(&key).copied()
+        self.held.frees.get(&key).copied()
+    }
+
+    /// The ranges of numbers from the plant that are not followed.
+    pub(crate) fn ranges(&self) -> &Ranges {
+        &self.held.ranges
     }
 
     /// The declared type of a variable.

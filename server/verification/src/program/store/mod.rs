@@ -6,7 +6,7 @@ mod terms;
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
 use ladder::scan::{Kind, Names, bit_of_word};
-use logic::{Datum, Name};
+use logic::{Datum, Name, Relation};
 use proof::{Gates, Netlist, Signal};
 
 use self::terms::is_nested;
@@ -22,6 +22,64 @@ struct Latched {
     variable: Name,
     kept: Kept,
     latch: Signal,
+}
+
+/// A number that is not followed but for the range that it is in.
+#[derive(Clone, Debug)]
+pub(crate) struct Ranged {
+    /// A value for each range.
+    value: Value,
+    /// The constants that tell the ranges apart.
+    compared: Vec<Datum>,
+}
+
+/// The ranges of numbers that are not followed, by the numbers of the unknowns.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Ranges(HashMap<usize, Ranged>);
+
+impl Ranges {
+    fn insert(&mut self, unknown: usize, ranged: Ranged) {
+        self.0.insert(unknown, ranged);
+    }
+
+    /// What can stand for a value where it is compared with this constant: a value
+    /// for each range, if these tell apart what is needed.
+    pub(crate) fn of(&self, value: &Value, constant: Datum) -> Option<&Value> {
+        let Value::Unknown(number) = value else {
+            return None;
+        };
+        let ranged = self.0.get(number)?;
+        let mut compared = ranged.compared.iter();
+        let is_told_apart = compared.any(|it| it.key() == constant.key());
+        is_told_apart.then_some(&ranged.value)
+    }
+
+    /// When a value is on.
+    pub(crate) fn on(&self, value: &Value, net: &mut Netlist) -> Option<Signal> {
+        match self.of(value, Datum::Integer(0)) {
+            Some(ranged) => ranged.on(net),
+            None => value.on(net),
+        }
+    }
+
+    /// When the relation holds between two values.
+    pub(crate) fn compares(
+        &self,
+        net: &mut Netlist,
+        [one, other]: [&Value; 2],
+        relation: Relation,
+    ) -> Option<Signal> {
+        let constant = |value: &Value| match value.cases() {
+            [(constant, _)] => Some(*constant),
+            _ => None,
+        };
+        let ranged = |value, with| constant(with).and_then(|it| self.of(value, it));
+        let sides = [
+            ranged(one, other).unwrap_or(one),
+            ranged(other, one).unwrap_or(other),
+        ];
+        sides[0].compares(net, relation, sides[1])
+    }
 }
 
 /// What stands for texts that depend on numbers that are not followed.
@@ -41,6 +99,14 @@ pub(super) struct Given {
     pub(super) widths: HashMap<Name, (u32, bool)>,
 }
 
+/// What variables hold when a scan has ended.
+#[derive(Clone, Debug)]
+pub(super) struct Held {
+    pub(super) values: BTreeMap<Name, Value>,
+    pub(super) frees: Frees,
+    pub(super) ranges: Ranges,
+}
+
 /// All variables at one point of a scan.
 pub(super) struct Store<'k> {
     pub(super) net: Netlist,
@@ -53,6 +119,7 @@ pub(super) struct Store<'k> {
     /// The variables whose unknown value is the same throughout a run of scans'
     /// inputs, by the number of the unknown.
     outside: HashMap<usize, Name>,
+    ranges: Ranges,
     unknowns: usize,
     /// The numbers of words that were too large to be computed with.
     large: HashMap<Word, usize>,
@@ -74,6 +141,7 @@ impl<'k> Store<'k> {
             now: BTreeMap::new(),
             kept: Vec::new(),
             outside: HashMap::new(),
+            ranges: Ranges::default(),
             unknowns: 0,
             large: HashMap::new(),
             bits_of: BTreeSet::new(),
@@ -182,17 +250,18 @@ impl<'k> Store<'k> {
             let word = self.inputs.word(&mut self.net, name, bits, is_signed);
             return Value::Word(word);
         }
-        let numbers = self.knowledge.numbers.get(name).cloned();
-        match numbers {
-            Some(Some(compared)) if kind != Some(Kind::Bool) => {
-                self.inputs.number(&mut self.net, name, kind, &compared)
-            }
-            Some(None) if kind != Some(Kind::Bool) => {
-                let value = self.unknown();
-                if let Value::Unknown(number) = value {
-                    self.outside.insert(number, name.clone());
+        match self.knowledge.numbers.get(name) {
+            Some(number) if kind != Some(Kind::Bool) => {
+                let compared = &number.compared;
+                let is_computed_with = number.is_computed_with;
+                let ranged = (!compared.is_empty()).then(|| Ranged {
+                    value: self.inputs.number(&mut self.net, name, kind, compared),
+                    compared: compared.clone(),
+                });
+                match ranged {
+                    Some(ranged) if !is_computed_with => ranged.value,
+                    ranged => self.number_from_outside(name, ranged),
                 }
-                value
             }
             _ => {
                 let on = self.inputs.bit(&mut self.net, name);
@@ -204,13 +273,25 @@ impl<'k> Store<'k> {
         }
     }
 
+    /// A number whose very value counts. What it is compared with tells in which
+    /// range it is.
+    fn number_from_outside(&mut self, name: &Name, ranged: Option<Ranged>) -> Value {
+        self.unknowns += 1;
+        self.outside.insert(self.unknowns, name.clone());
+        if let Some(ranged) = ranged {
+            self.ranges.insert(self.unknowns, ranged);
+        }
+        Value::Unknown(self.unknowns)
+    }
+
     /// Whether no few values stand for a variable that the program does not write,
     /// but its bits do: it is looked at by these and as a whole, or a whole number
     /// that is copied or computed with.
     fn is_word_from_outside(&self, name: &Name) -> bool {
         let is_looked_at =
             || self.knowledge.whole.contains(name) && self.knowledge.split.contains(name);
-        let is_computed_with = || self.knowledge.numbers.get(name) == Some(&None);
+        let number = self.knowledge.numbers.get(name);
+        let is_computed_with = || number.is_some_and(|it| it.is_computed_with);
         let is_word = match self.names.kind(name) {
             Some(Kind::Integer) => is_looked_at() || is_computed_with(),
             None => is_looked_at(),
@@ -286,7 +367,7 @@ impl<'k> Store<'k> {
 
     /// When a value is on; free under this text if it is not followed.
     fn on(&mut self, value: &Value, text: &str) -> Signal {
-        match (value.on(&mut self.net), value) {
+        match (self.ranges.on(value, &mut self.net), value) {
             (Some(signal), _) => signal,
             (None, Value::Unknown(number)) => self.free(text, vec![*number]),
             (None, _) => Signal::FALSE,
@@ -373,6 +454,19 @@ impl<'k> Store<'k> {
 
     /// A value turned into the declared type of a variable.
     fn converted(&mut self, name: &Name, value: &Value) -> Value {
+        match (value, self.names.kind(name)) {
+            (Value::Unknown(_), Some(Kind::Bool)) => return Value::bit(self.on(value, name)),
+            // The nearest whole number may be another one.
+            (Value::Unknown(number), Some(Kind::Integer)) => {
+                let from = self.outside.get(number);
+                return match from.and_then(|it| self.names.kind(it)) {
+                    Some(Kind::Integer) => value.clone(),
+                    _ => self.unknown(),
+                };
+            }
+            (Value::Unknown(_), _) => return value.clone(),
+            _ => {}
+        }
         if let Value::Word(word) = value {
             match self.names.kind(name) {
                 Some(Kind::Bool) => return Value::bit(word.on(&mut self.net)),
@@ -382,10 +476,7 @@ impl<'k> Store<'k> {
             }
         }
         let Some(cases) = value.listed(&mut self.net) else {
-            return match value {
-                Value::Unknown(_) => value.clone(),
-                _ => self.unknown(),
-            };
+            return self.unknown();
         };
         let cases = cases.iter();
         let cases = cases.map(|(value, when)| (self.names.converted(name, *value), *when));
@@ -413,8 +504,13 @@ impl<'k> Store<'k> {
     }
 
     /// What everything holds now.
-    pub(super) fn into_values(self) -> (Netlist, Inputs, BTreeMap<Name, Value>, Frees) {
-        (self.net, self.inputs, self.now, self.frees)
+    pub(super) fn into_held(self) -> (Netlist, Inputs, Held) {
+        let held = Held {
+            values: self.now,
+            frees: self.frees,
+            ranges: self.ranges,
+        };
+        (self.net, self.inputs, held)
     }
 }
 

@@ -31,7 +31,7 @@ impl Store<'_> {
         self.note_comparison(right, left);
         let sides = [self.direct(left), self.direct(right)];
         if let [Some(one), Some(other)] = &sides
-            && let Some(holds) = one.compares(&mut self.net, relation, other)
+            && let Some(holds) = self.ranges.compares(&mut self.net, [one, other], relation)
         {
             return Ok(holds);
         }
@@ -66,14 +66,37 @@ impl Store<'_> {
         }
     }
 
+    /// Notes that a variable from the plant is compared with a constant, or one that
+    /// holds the number of such a variable now.
     fn note_comparison(&mut self, name: &str, with: &str) {
-        let is_variable = is_plain(name) && Datum::constant(name).is_none() && !name.contains('[');
-        if let (true, Some(constant)) = (is_variable, Datum::constant(with))
-            && let Key::Whole(name) = self.key(name)
-            && !self.is_written(&name)
-        {
-            let is_followed = self.now.contains_key(&name);
-            self.knowledge.compares(&name, constant, is_followed);
+        let is_variable = is_plain(name) && Datum::constant(name).is_none();
+        let Some(constant) = Datum::constant(with).filter(|_| is_variable) else {
+            return;
+        };
+        let names = match self.is_direct(name) {
+            true => vec![name.to_owned()],
+            false if is_nested(name) => return,
+            false => {
+                let targets = self.targets(name).into_iter().flatten();
+                targets.map(|(target, _)| target).collect()
+            }
+        };
+        for name in names {
+            if !self.is_direct(&name) {
+                continue;
+            }
+            let Key::Whole(name) = self.key(&name) else {
+                continue;
+            };
+            let of = match self.now.get(&name) {
+                Some(Value::Unknown(number)) => self.outside.get(number).cloned(),
+                _ => None,
+            };
+            let from = of.or_else(|| (!self.is_written(&name)).then_some(name));
+            if let Some(from) = from {
+                let is_followed = self.now.contains_key(&from);
+                self.knowledge.compares(&from, constant, is_followed);
+            }
         }
     }
 
@@ -106,12 +129,15 @@ impl Store<'_> {
                 Some(Value::bit(word.bit(bit)))
             }
             Key::Whole(name) => {
-                let is_bit = self.names.kind(&name) == Some(Kind::Bool);
-                if !self.is_written(&name) && !is_bit && !self.is_word_from_outside(&name) {
-                    return None;
-                }
                 self.is_looked_at_whole(&name);
-                Some(self.load(&name))
+                let is_bit = self.names.kind(&name) == Some(Kind::Bool);
+                let number = self.knowledge.numbers.get(&name);
+                let is_number = number.is_some_and(|it| it.is_computed_with);
+                let is_known = self.is_written(&name) || is_bit || is_number;
+                match is_known || self.is_word_from_outside(&name) {
+                    true => Some(self.load(&name)),
+                    false => None,
+                }
             }
         }
     }
@@ -262,6 +288,8 @@ impl Store<'_> {
     /// Notes that a variable is looked at as a number.
     fn looks_at(&mut self, name: &Name, is_simple: bool) {
         self.is_looked_at_whole(name);
+        // A number that was not seen to be compared with constants alone.
+        let is_simple = is_simple && self.knowledge.numbers.contains_key(name);
         if !self.is_written(name) && !is_simple {
             let is_followed = self.now.contains_key(name);
             self.knowledge.computes_with(name, is_followed);
