@@ -2,7 +2,7 @@
 //! with.
 
 use grafcet::Spec;
-use grafcet::evolution::Net;
+use grafcet::evolution::{Effect, Net, Operand};
 use logic::{Atom, Datum, Expr, Name};
 
 use crate::rules::names_of;
@@ -20,8 +20,9 @@ pub(crate) fn names(spec: &Spec) -> Vec<Name> {
     names
 }
 
-/// Each variable with a constant that it is compared with.
-pub(crate) fn constants(spec: &Spec) -> Vec<(Name, Datum)> {
+/// Each variable that a spec looks at as a number, with a constant that it is
+/// compared with; without one where its very value counts.
+pub(crate) fn numbers(spec: &Spec) -> Vec<(Name, Option<Datum>)> {
     let mut found = Vec::new();
     for transition in spec.grafcet.transitions() {
         of(&transition.receptivity, &mut found);
@@ -36,6 +37,16 @@ pub(crate) fn constants(spec: &Spec) -> Vec<(Name, Datum)> {
             of(event, &mut found);
         }
     }
+    let net = Net::of(&spec.grafcet);
+    for action in &net.stored {
+        if let Effect::Assign(term) = &action.effect {
+            let read = term.operands().filter_map(|operand| match operand {
+                Operand::Variable(at) => Some((net.variables[*at].clone(), None)),
+                _ => None,
+            });
+            found.extend(read);
+        }
+    }
     for rule in &spec.environment {
         of(&rule.left, &mut found);
         of(&rule.right, &mut found);
@@ -46,7 +57,7 @@ pub(crate) fn constants(spec: &Spec) -> Vec<(Name, Datum)> {
     found
 }
 
-fn of(expr: &Expr, found: &mut Vec<(Name, Datum)>) {
+fn of(expr: &Expr, found: &mut Vec<(Name, Option<Datum>)>) {
     match expr {
         Expr::Constant(_) => {}
         Expr::Not(inner) => of(inner, found),
@@ -54,10 +65,10 @@ fn of(expr: &Expr, found: &mut Vec<(Name, Datum)>) {
         Expr::Atom(Atom::Rise(inner) | Atom::Fall(inner)) => of(inner, found),
         Expr::Atom(Atom::Comparison(it)) => {
             let sides = [(&it.left, &it.right), (&it.right, &it.left)];
-            for (name, constant) in sides {
+            for (name, other) in sides {
                 let name = grafcet::is_in_next_scan(name).unwrap_or(name);
-                if let (None, Some(constant)) = (Datum::constant(name), Datum::constant(constant)) {
-                    found.push((name.into(), constant));
+                if Datum::constant(name).is_none() {
+                    found.push((name.into(), Datum::constant(other)));
                 }
             }
         }

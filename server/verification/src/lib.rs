@@ -54,6 +54,7 @@ mod domain;
 mod frame;
 pub mod inputs;
 pub mod program;
+mod ranges;
 mod refusal;
 mod rules;
 mod run;

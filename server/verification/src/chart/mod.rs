@@ -28,6 +28,7 @@ use crate::compared;
 use crate::domain::Domain;
 use crate::inputs::Inputs;
 use crate::program::{Bounds, Followed};
+use crate::ranges::Ranges;
 use crate::refusal::Refusal;
 use crate::value::Value;
 
@@ -71,12 +72,9 @@ pub fn follow(
         .iter()
         .map(|step| start.is_active(&step.name))
         .collect();
-    let mut numbers: BTreeMap<Name, Vec<Datum>> = BTreeMap::new();
-    for (name, constant) in compared::constants(spec) {
-        let known = numbers
-            .entry(name)
-            .or_insert_with(|| vec![Datum::Integer(0)]);
-        known.push(constant);
+    let mut numbers: BTreeMap<Name, Vec<Option<Datum>>> = BTreeMap::new();
+    for (name, constant) in compared::numbers(spec) {
+        numbers.entry(name).or_default().push(constant);
     }
     let mut domains: Domains = vec![Domain::Values(vec![Datum::default()]); net.variables.len()];
     for _ in 0..MOST_PASSES {
@@ -89,6 +87,7 @@ pub fn follow(
             edges: vec![Signal::FALSE; net.edges.len()],
             elapsed: BTreeMap::new(),
             numbers: &numbers,
+            ranges: ladder.map_or_else(Ranges::default, |it| it.ranges().clone()),
             unknowns: FIRST_UNKNOWN,
             bounds,
         };
@@ -156,7 +155,9 @@ struct Pass<'g> {
     /// By step and milliseconds: whether the time has passed, as far as the
     /// step has been active all the time.
     elapsed: BTreeMap<(usize, u64), Signal>,
-    numbers: &'g BTreeMap<Name, Vec<Datum>>,
+    /// What numbers are compared with; nothing where their very value counts.
+    numbers: &'g BTreeMap<Name, Vec<Option<Datum>>>,
+    ranges: Ranges,
     unknowns: usize,
     bounds: &'g Bounds,
 }

@@ -1,12 +1,13 @@
 //! What conditions see.
 
 use grafcet::evolution::{Condition, Operand};
-use logic::{Expr, Name, Relation};
+use logic::{Datum, Expr, Name, Relation};
 use proof::{Gates, Signal};
 
 use super::Pass;
 use super::state::State;
 use crate::inputs::Source;
+use crate::ranges::Ranged;
 use crate::value::Value;
 
 impl Pass<'_> {
@@ -19,13 +20,20 @@ impl Pass<'_> {
         {
             return value;
         }
-        match self.numbers.get(name) {
-            Some(compared) => {
-                let kind = self.ladder.and_then(|it| it.kind(name));
-                self.inputs.number(&mut self.netlist, name, kind, compared)
-            }
-            None => Value::bit(self.inputs.bit(&mut self.netlist, name)),
+        let Some(numbers) = self.numbers.get(name) else {
+            return Value::bit(self.inputs.bit(&mut self.netlist, name));
+        };
+        let kind = self.ladder.and_then(|it| it.kind(name));
+        let mut compared: Vec<Datum> = numbers.iter().copied().flatten().collect();
+        compared.push(Datum::Integer(0));
+        let value = self.inputs.number(&mut self.netlist, name, kind, &compared);
+        if !numbers.contains(&None) {
+            return value;
         }
+        self.unknowns += 1;
+        let ranged = Ranged { value, compared };
+        self.ranges.insert(self.unknowns, ranged);
+        Value::Unknown(self.unknowns)
     }
 
     /// Whether a condition holds at this moment, with the edges that occur now.
@@ -35,10 +43,7 @@ impl Pass<'_> {
             Condition::Step(at) => state.active[*at],
             Condition::Variable(at) => {
                 let value = &state.values[*at];
-                let on = match self.ladder {
-                    Some(ladder) => ladder.ranges().on(value, &mut self.netlist),
-                    None => value.on(&mut self.netlist),
-                };
+                let on = self.ranges.on(value, &mut self.netlist);
                 match (on, value) {
                     (Some(on), _) => on,
                     (None, Value::Unknown(number)) => {
@@ -83,10 +88,7 @@ impl Pass<'_> {
     ) -> Signal {
         let sides = [operand(left, state), operand(right, state)];
         let net = &mut self.netlist;
-        let holds = match self.ladder {
-            Some(it) => it.ranges().compares(net, [&sides[0], &sides[1]], relation),
-            None => sides[0].compares(net, relation, &sides[1]),
-        };
+        let holds = self.ranges.compares(net, [&sides[0], &sides[1]], relation);
         if let Some(holds) = holds {
             return holds;
         }

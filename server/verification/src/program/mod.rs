@@ -13,27 +13,30 @@
 
 mod boxes;
 mod flow;
+mod given;
 mod knowledge;
 mod memory;
 mod store;
 
-use std::collections::{BTreeSet, HashMap, HashSet};
+use std::collections::{BTreeSet, HashMap};
 
 use grafcet::Spec;
 use ladder::flow::{Guard, GuardSet, Order, execution};
 use ladder::scan::{Kind, Machine, Names, bit_of_word};
-use ladder::{Class, ElementKind, Program, Routine};
+use ladder::{ElementKind, Program, Routine};
 use logic::{Cancel, Datum, Name};
 use petgraph::graph::NodeIndex;
 use proof::{Gates, Netlist, Signal};
 use source::codes;
 
 use self::flow::{Power, Solved};
+use self::given::Given;
 use self::knowledge::Knowledge;
 use self::memory::Memories;
-use self::store::{Given, Held, Ranges, Store};
+use self::store::{Held, Store};
 use crate::compared;
 use crate::inputs::Inputs;
+use crate::ranges::Ranges;
 use crate::refusal::Refusal;
 use crate::value::Value;
 
@@ -106,14 +109,17 @@ pub fn follow(
 ) -> Result<Followed, Refusal> {
     let machine = Machine::new(program);
     bounds.is_wanted()?;
-    let given = given(program, &machine);
+    let given = Given::of(program, &machine);
     bounds.is_wanted()?;
     let (orders, first_scan) = (orders(program, &machine)?, machine.first_scan());
     let looks_at_first_scan = reads(program, first_scan);
     let mut knowledge = Knowledge::default();
-    for (name, constant) in spec.into_iter().flat_map(compared::constants) {
+    for (name, constant) in spec.into_iter().flat_map(compared::numbers) {
         let name = machine.names().resolved(&name, &|_| None).into_owned();
-        knowledge.compares(&name.into(), constant, false);
+        match constant {
+            Some(constant) => knowledge.compares(&name.into(), constant, false),
+            None => knowledge.computes_with(&name.into(), false),
+        }
     }
     for name in spec.into_iter().flat_map(compared::names) {
         // Of what both look at, the one may look at bits and the other at the whole.
@@ -190,57 +196,6 @@ fn untouched(program: &Program, given: &Given) -> HashMap<Name, Datum> {
     let declared = program.declarations.iter().map(|it| &it.name);
     let initial = |name: &Name| given.initial.get(name).copied().unwrap_or_default();
     declared.map(|name| (name.clone(), initial(name))).collect()
-}
-
-fn given(program: &Program, machine: &Machine<'_>) -> Given {
-    let initial = machine.stored();
-    let initial: HashMap<Name, Datum> =
-        initial.map(|(name, value)| (name.clone(), value)).collect();
-    let constants = program.declarations.iter().filter_map(|declaration| {
-        let is_constant = declaration.class == Class::Constant;
-        let value = initial.get(&declaration.name).filter(|_| is_constant)?;
-        Some((declaration.name.clone(), *value))
-    });
-    let constants = constants.collect();
-    let mut kinds = HashMap::new();
-    let mut mixed = HashSet::new();
-    for (_, rung) in program.rungs() {
-        for (_, element) in rung.network.elements() {
-            let (name, kind) = match &element.kind {
-                ElementKind::Timer(it) => (&it.instance.name, format!("{:?}", it.kind)),
-                ElementKind::Counter(it) => (&it.instance.name, format!("{:?}", it.kind)),
-                _ => continue,
-            };
-            let known = kinds.entry(name.clone()).or_insert_with(|| kind.clone());
-            if *known != kind {
-                mixed.insert(name.clone());
-            }
-        }
-    }
-    let widths = program.declarations.iter().filter_map(|declaration| {
-        let width = width_of(declaration.data_type.as_deref()?)?;
-        Some((declaration.name.clone(), width))
-    });
-    Given {
-        initial,
-        constants,
-        mixed,
-        widths: widths.collect(),
-    }
-}
-
-/// How many bits a whole number of this type has, and whether the highest is a
-/// sign.
-fn width_of(data_type: &str) -> Option<(u32, bool)> {
-    Some(match &*data_type.to_ascii_uppercase() {
-        "SINT" => (8, true),
-        "INT" => (16, true),
-        "DINT" => (32, true),
-        "USINT" | "BYTE" => (8, false),
-        "UINT" | "WORD" => (16, false),
-        "UDINT" | "DWORD" => (32, false),
-        _ => return None,
-    })
 }
 
 /// The orders that a scan follows, one after the other.

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use ladder::scan::Machine;
 use ladder::{ElementKind, Program, TimerKind};
 use logic::{Datum, Name};
-use proof::{Netlist, Trace, replay};
+use proof::{Netlist, Signal, Touched, Trace, replay};
 use verification::inputs::Source;
 use verification::program::Followed;
 
@@ -133,7 +133,7 @@ pub fn compare(
 
 /// What outputs stand for a variable.
 #[derive(Debug)]
-enum Shown {
+pub enum Shown {
     /// One for each value.
     Values(Vec<Datum>),
     /// One for each bit.
@@ -141,7 +141,31 @@ enum Shown {
 }
 
 impl Shown {
-    fn outputs(&self) -> usize {
+    /// What a translation holds, the values or the bits, as outputs of its netlist.
+    /// `None` if it is not followed or depends on what is not.
+    pub fn of(
+        name: &Name,
+        (cases, bits): (&[(Datum, Signal)], &[Signal]),
+        touched: &Touched,
+        netlist: &mut Netlist,
+    ) -> Option<Self> {
+        let signals = cases.iter().map(|(_, when)| when).chain(bits);
+        let signals: Vec<Signal> = signals.copied().collect();
+        if signals.is_empty() || signals.iter().any(|it| touched.contains(*it)) {
+            return None;
+        }
+        for (at, signal) in signals.iter().enumerate() {
+            netlist.output(format!("{name} {at}"), *signal);
+        }
+        let values = cases.iter().map(|(value, _)| *value);
+        Some(match bits.len() {
+            0 => Self::Values(values.collect()),
+            bits => Self::Bits(bits),
+        })
+    }
+
+    /// How many outputs it has.
+    pub fn outputs(&self) -> usize {
         match self {
             Self::Values(values) => values.len(),
             Self::Bits(bits) => *bits,
@@ -149,7 +173,7 @@ impl Shown {
     }
 
     /// Whether they show this value.
-    fn held(&self, on: &[bool], expected: Datum) -> bool {
+    pub fn held(&self, on: &[bool], expected: Datum) -> bool {
         match self {
             Self::Values(values) => {
                 let held = values.iter().zip(on).filter(|(_, on)| **on);
@@ -173,22 +197,11 @@ fn judged(followed: &Followed, free: &BTreeSet<usize>) -> (Netlist, Vec<(Name, S
     let mut shown = Vec::new();
     let mut left_out = 0;
     for name in followed.variables() {
-        let (cases, bits) = (followed.cases(name), followed.bits(name));
-        let signals = cases.iter().map(|(_, when)| when).chain(bits);
-        let signals: Vec<_> = signals.copied().collect();
-        if signals.is_empty() || signals.iter().any(|it| touched.contains(*it)) {
-            left_out += 1;
-            continue;
+        let held = (followed.cases(name), followed.bits(name));
+        match Shown::of(name, held, &touched, &mut netlist) {
+            Some(own) => shown.push((name.clone(), own)),
+            None => left_out += 1,
         }
-        for (at, signal) in signals.iter().enumerate() {
-            netlist.output(format!("{name} {at}"), *signal);
-        }
-        let values = cases.iter().map(|(value, _)| *value);
-        let own = match bits.len() {
-            0 => Shown::Values(values.collect()),
-            bits => Shown::Bits(bits),
-        };
-        shown.push((name.clone(), own));
     }
     (netlist, shown, left_out)
 }

@@ -1,9 +1,15 @@
-//! Random ladders about words: bits that are written one by one, and words that
-//! are compared and copied whole.
+//! Random ladders about words, and grafcets beside them: bits that are written one
+//! by one, and words that are compared and copied whole.
 
-use verification::program::{Bounds, follow};
+use std::collections::BTreeSet;
 
-use crate::beside::{Compared, compare};
+use grafcet::evolution;
+use ladder::scan::{Machine, bit_of_word};
+use proof::{Trace, replay};
+use verification::chart;
+use verification::program::{Bounds, Followed, follow};
+
+use crate::beside::{Compared, Shown, compare};
 use crate::random::Random;
 
 const PROGRAMS: u64 = 400;
@@ -69,6 +75,35 @@ impl Maker<'_> {
             out += &format!("rung: {condition} -> {}\n", self.output());
         }
         out
+    }
+
+    /// A grafcet of two steps that reads the words.
+    fn chart(&mut self) -> String {
+        let mut steps = String::new();
+        let conditions: Vec<String> = (0..4).map(|_| self.condition(1)).collect();
+        for (step, output) in [("A", "x"), ("B", "x"), ("B", "y")] {
+            steps += &format!("{step}: {} |- {output}\n", self.condition(1));
+        }
+        for (step, output) in [("A", "Out"), ("B", "Out"), ("B", "Copy")] {
+            steps += &format!("{step}: |- {output} := {}\n", self.operand());
+        }
+        let words = GIVEN.iter().chain(&WORDS[..self.words]);
+        let words = words.map(|(name, _)| *name);
+        let bits = words.clone().flat_map(|name| {
+            let bits = PLACES.iter().map(move |place| format!("{name}.{place}"));
+            std::iter::once(name.to_owned()).chain(bits)
+        });
+        let names: Vec<String> = bits.map(|name| spelled(&name)).collect();
+        format!(
+            "Step A, B\nTransition t, u\nInput {}, {}\nOutput x, y, Out, Copy\nMarking A\nTransitions:\n\
+             t: A*({})*({}) |- @B\nu: B*({})*({}) |- @A\nSteps:\n{steps}",
+            INPUTS.join(", "),
+            names.join(", "),
+            conditions[0],
+            conditions[1],
+            conditions[2],
+            conditions[3],
+        )
     }
 
     fn word(&mut self) -> &'static str {
@@ -154,39 +189,149 @@ fn spelled(name: &str) -> String {
     }
 }
 
-#[test]
-fn words_do_what_their_translations_do() {
+/// Some ladders, each with a grafcet that reads its words.
+fn each(mut judge: impl FnMut(&str, &str, &mut Random)) {
     let mut random = Random::new(23);
-    let mut all = Compared::default();
     for _ in 0..PROGRAMS {
         let (words, places) = (
             1 + random.below(WORDS.len()),
             1 + random.below(PLACES.len()),
         );
-        let text = Maker {
+        let mut maker = Maker {
             random: &mut random,
             words,
             places,
-        }
-        .text();
-        let reading = ladder::read(text.as_bytes());
-        assert!(
-            reading.diagnostics.is_empty(),
-            "{:?}\n{text}",
-            reading.diagnostics
-        );
-        let followed = follow(&reading.program, None, &Bounds::default())
+        };
+        let ladder = maker.text();
+        // Which element an index leads to only the ladder knows.
+        maker.words = words.min(WORDS.len() - 1);
+        let chart = maker.chart();
+        judge(&ladder, &chart, &mut random);
+    }
+}
+
+fn program(text: &str) -> std::sync::Arc<ladder::Program> {
+    let reading = ladder::read(text.as_bytes());
+    let mut found = reading.diagnostics.iter();
+    let error = found.find(|it| it.severity == source::Severity::Error);
+    assert!(error.is_none(), "{error:?}\n{text}");
+    reading.program
+}
+
+#[test]
+fn words_do_what_their_translations_do() {
+    let mut all = Compared::default();
+    each(|text, _, random| {
+        let program = program(text);
+        let followed = follow(&program, None, &Bounds::default())
             .unwrap_or_else(|refusal| panic!("{refusal}\n{text}"));
         let one = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| {
-            compare(&reading.program, &followed, SCANS, &mut random)
+            compare(&program, &followed, SCANS, random)
         }));
         let one = one.unwrap_or_else(|_| panic!("{text}"));
         all.values += one.values;
         all.variables += one.variables;
         all.changing += one.changing;
         all.left_out += one.left_out;
-    }
+    });
     println!("{all:?}");
     assert!(4 * all.changing > all.variables, "{all:?}");
     assert!(all.variables > 8 * all.left_out, "{all:?}");
+}
+
+/// A grafcet beside a ladder is followed through so many evolutions.
+const EVOLUTIONS: usize = 4;
+
+#[test]
+fn grafcets_that_read_words_do_what_their_translations_do() {
+    let (mut compared, mut on) = (0, 0);
+    each(|ladder, chart, random| {
+        let program = program(ladder);
+        let reading = grafcet::read(chart);
+        let mut found = reading.diagnostics.iter();
+        let error = found.find(|it| it.severity == source::Severity::Error);
+        assert!(error.is_none(), "{error:?}\n{chart}");
+        let followed = follow(&program, Some(&reading.spec), &Bounds::default())
+            .unwrap_or_else(|refusal| panic!("{refusal}\n{ladder}"));
+        let (all, differing) = beside(&program, &followed, &reading.spec, random)
+            .unwrap_or_else(|wrong| panic!("{wrong}\n{ladder}\n{chart}"));
+        compared += all;
+        on += differing;
+    });
+    println!("{compared} values, {on} of them not 0");
+    assert!(compared > 10_000 && 4 * on > compared, "{compared} {on}");
+}
+
+/// Runs a ladder and a grafcet that reads its variables, and compares what the
+/// grafcet publishes with its translation. How many values were compared, and how
+/// many of them were not 0.
+fn beside(
+    program: &ladder::Program,
+    followed: &Followed,
+    spec: &grafcet::Spec,
+    random: &mut Random,
+) -> Result<(usize, usize), String> {
+    let evolved = chart::follow(spec, Some(followed), EVOLUTIONS, &Bounds::default())
+        .map_err(|refusal| refusal.to_string())?;
+    let sources = &evolved.inputs.sources;
+    let free = (0..sources.len()).filter(|at| !sources[*at].is_given());
+    let touched = evolved.netlist.touched_by(&free.collect::<Vec<_>>());
+    let mut netlist = evolved.netlist.clone();
+    let names = evolved.outputs().iter();
+    let shown = names.filter_map(|name| {
+        let held = (evolved.cases(name), evolved.bits(name));
+        let own = Shown::of(name, held, &touched, &mut netlist)?;
+        Some((name, own))
+    });
+    let shown: Vec<_> = shown.collect();
+    let known: BTreeSet<&str> = followed.variables().map(|it| &**it).collect();
+    let is_known = |name: &str| {
+        let word = bit_of_word(name).map(|(word, _)| word);
+        known.contains(name) || word.is_some_and(|it| known.contains(it))
+    };
+    let mut machine = Machine::new(program);
+    let mut grafcet = evolution::Machine::new(&spec.grafcet);
+    let (mut inputs, mut seen) = (Vec::new(), Vec::new());
+    for _ in 0..SCANS {
+        let row: Vec<bool> = sources.iter().map(|_| random.below(3) == 0).collect();
+        for (name, value) in evolved.inputs.values(&row) {
+            machine.set_input(&name, value);
+            grafcet.set_input(&name, value);
+        }
+        machine.scan(10);
+        let read: Vec<_> = grafcet.free().cloned().collect();
+        for name in read.iter().filter(|it| is_known(it)) {
+            grafcet.set_input(name, machine.value(name));
+        }
+        if grafcet.scan(10).is_err() || grafcet.evolutions().count() >= EVOLUTIONS {
+            break;
+        }
+        inputs.push(row);
+        seen.push(
+            shown
+                .iter()
+                .map(|(name, _)| grafcet.value(name))
+                .collect::<Vec<_>>(),
+        );
+    }
+    let trace = Trace {
+        initial: Vec::new(),
+        inputs,
+    };
+    let replayed = replay(&netlist, &trace);
+    let (mut compared, mut on) = (0, 0);
+    for (scan, (row, seen)) in replayed.outputs.iter().zip(&seen).enumerate() {
+        let mut row = row.iter().copied();
+        for ((name, own), expected) in shown.iter().zip(seen) {
+            let signals: Vec<bool> = row.by_ref().take(own.outputs()).collect();
+            if !own.held(&signals, *expected) {
+                return Err(format!(
+                    "{name} in scan {scan}: {own:?} {signals:?}, but {expected:?}"
+                ));
+            }
+            compared += 1;
+            on += usize::from(expected.is_on());
+        }
+    }
+    Ok((compared, on))
 }

@@ -144,3 +144,50 @@ rung: \"Rows[1]\" = 8 -> lamp
         "go fault | lamp | lamp\nfault | lamp | -\ndiffer: lamp",
     );
 }
+
+#[test]
+fn an_element_of_an_array_from_the_plant_takes_the_values_that_can_be_told_apart() {
+    let ladder = |index: &str| {
+        format!(
+            "program P\ninput go\noutput a\ninternal n : INT\nrung: go -> n := 1\nrung: \"Level[{index}]\" > 50 -> a\n"
+        )
+    };
+    let found = verified(&ladder("0"), &spec("go", "a", "X0: 0 |- a\n"), Timing::Scan);
+    assert_told(&found.verdict, "Level[0]=51 | a | -\ndiffer: a");
+    let found = verified(&ladder("n"), &spec("go", "a", "X0: 0 |- a\n"), Timing::Scan);
+    assert_told(&found.verdict, "go Level[1]=51 | a | -\ndiffer: a");
+}
+
+#[test]
+fn a_number_that_is_computed_with_is_in_the_range_that_comparisons_tell() {
+    let ladder = "\
+program P
+input T : REAL
+output a
+output b
+internal Seen : REAL
+internal Twice : REAL
+rung: 1 -> Seen := T
+rung: 1 -> Twice := T * 2
+rung: T > 133 -> a
+rung: Seen > 140 -> b
+";
+    // What is above 140 is above 133, though nothing is known of its double.
+    let found = verified(
+        ladder,
+        &spec(
+            "T",
+            "a, b",
+            "X0: T > 133 |- a\nX0: (T > 140)*(T > 133) |- b\n",
+        ),
+        Timing::Scan,
+    );
+    assert_told(&found.verdict, "equivalent");
+    assert!(found.free.is_empty());
+    let found = verified(
+        ladder,
+        &spec("T", "a, b", "X0: T > 133 |- a\nX0: T > 150 |- b\n"),
+        Timing::Scan,
+    );
+    assert_told(&found.verdict, "T=150 | a b | a\ndiffer: b");
+}

@@ -1,20 +1,24 @@
 //! The variables of a program while a scan is followed in signals.
 
 mod learning;
+mod outside;
 mod terms;
+mod writing;
 
-use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
-use ladder::scan::{Kind, Names, bit_of_word};
-use logic::{Datum, Name, Relation};
+use ladder::scan::{Names, bit_of_word};
+use logic::{Datum, Name};
 use proof::{Gates, Netlist, Signal};
 
 use self::terms::is_nested;
+use super::given::Given;
 use super::knowledge::Knowledge;
 use crate::domain::Kept;
 use crate::inputs::{Inputs, Source};
+use crate::ranges::Ranges;
 use crate::refusal::Refusal;
-use crate::value::{MOST_VALUES, Value, applied, chosen, gathered};
+use crate::value::Value;
 use crate::word::Word;
 
 /// A latch, and what it stands for.
@@ -24,80 +28,8 @@ struct Latched {
     latch: Signal,
 }
 
-/// A number that is not followed but for the range that it is in.
-#[derive(Clone, Debug)]
-pub(crate) struct Ranged {
-    /// A value for each range.
-    value: Value,
-    /// The constants that tell the ranges apart.
-    compared: Vec<Datum>,
-}
-
-/// The ranges of numbers that are not followed, by the numbers of the unknowns.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Ranges(HashMap<usize, Ranged>);
-
-impl Ranges {
-    fn insert(&mut self, unknown: usize, ranged: Ranged) {
-        self.0.insert(unknown, ranged);
-    }
-
-    /// What can stand for a value where it is compared with this constant: a value
-    /// for each range, if these tell apart what is needed.
-    pub(crate) fn of(&self, value: &Value, constant: Datum) -> Option<&Value> {
-        let Value::Unknown(number) = value else {
-            return None;
-        };
-        let ranged = self.0.get(number)?;
-        let mut compared = ranged.compared.iter();
-        let is_told_apart = compared.any(|it| it.key() == constant.key());
-        is_told_apart.then_some(&ranged.value)
-    }
-
-    /// When a value is on.
-    pub(crate) fn on(&self, value: &Value, net: &mut Netlist) -> Option<Signal> {
-        match self.of(value, Datum::Integer(0)) {
-            Some(ranged) => ranged.on(net),
-            None => value.on(net),
-        }
-    }
-
-    /// When the relation holds between two values.
-    pub(crate) fn compares(
-        &self,
-        net: &mut Netlist,
-        [one, other]: [&Value; 2],
-        relation: Relation,
-    ) -> Option<Signal> {
-        let constant = |value: &Value| match value.cases() {
-            [(constant, _)] => Some(*constant),
-            _ => None,
-        };
-        let ranged = |value, with| constant(with).and_then(|it| self.of(value, it));
-        let sides = [
-            ranged(one, other).unwrap_or(one),
-            ranged(other, one).unwrap_or(other),
-        ];
-        sides[0].compares(net, relation, sides[1])
-    }
-}
-
 /// What stands for texts that depend on numbers that are not followed.
 pub(crate) type Frees = HashMap<(String, Vec<usize>), Signal>;
-
-/// What the program says before anything is followed.
-#[derive(Debug, Default)]
-pub(super) struct Given {
-    /// Values before the first scan; all others are 0.
-    pub(super) initial: HashMap<Name, Datum>,
-    /// What is declared never to change.
-    pub(super) constants: HashMap<Name, Datum>,
-    /// Instances that timers or counters of different kinds share.
-    pub(super) mixed: HashSet<Name>,
-    /// How many bits whole numbers have by their type, and whether the highest is
-    /// a sign.
-    pub(super) widths: HashMap<Name, (u32, bool)>,
-}
 
 /// What variables hold when a scan has ended.
 #[derive(Clone, Debug)]
@@ -239,67 +171,6 @@ impl<'k> Store<'k> {
         value
     }
 
-    /// A variable that the program does not write.
-    fn given_from_outside(&mut self, name: &Name) -> Value {
-        let kind = self.names.kind(name);
-        if let Some(value) = self.given.constants.get(name) {
-            return Value::constant(*value);
-        }
-        if self.is_word_from_outside(name) {
-            let (bits, is_signed) = self.given.widths.get(name).copied().unwrap_or((64, true));
-            let word = self.inputs.word(&mut self.net, name, bits, is_signed);
-            return Value::Word(word);
-        }
-        match self.knowledge.numbers.get(name) {
-            Some(number) if kind != Some(Kind::Bool) => {
-                let compared = &number.compared;
-                let is_computed_with = number.is_computed_with;
-                let ranged = (!compared.is_empty()).then(|| Ranged {
-                    value: self.inputs.number(&mut self.net, name, kind, compared),
-                    compared: compared.clone(),
-                });
-                match ranged {
-                    Some(ranged) if !is_computed_with => ranged.value,
-                    ranged => self.number_from_outside(name, ranged),
-                }
-            }
-            _ => {
-                let on = self.inputs.bit(&mut self.net, name);
-                let cases = [(false, !on), (true, on)];
-                let cases =
-                    cases.map(|(is_on, when)| (self.names.converted(name, is_on.into()), when));
-                gathered(&mut self.net, cases.into())
-            }
-        }
-    }
-
-    /// A number whose very value counts. What it is compared with tells in which
-    /// range it is.
-    fn number_from_outside(&mut self, name: &Name, ranged: Option<Ranged>) -> Value {
-        self.unknowns += 1;
-        self.outside.insert(self.unknowns, name.clone());
-        if let Some(ranged) = ranged {
-            self.ranges.insert(self.unknowns, ranged);
-        }
-        Value::Unknown(self.unknowns)
-    }
-
-    /// Whether no few values stand for a variable that the program does not write,
-    /// but its bits do: it is looked at by these and as a whole, or a whole number
-    /// that is copied or computed with.
-    fn is_word_from_outside(&self, name: &Name) -> bool {
-        let is_looked_at =
-            || self.knowledge.whole.contains(name) && self.knowledge.split.contains(name);
-        let number = self.knowledge.numbers.get(name);
-        let is_computed_with = || number.is_some_and(|it| it.is_computed_with);
-        let is_word = match self.names.kind(name) {
-            Some(Kind::Integer) => is_looked_at() || is_computed_with(),
-            None => is_looked_at(),
-            Some(Kind::Bool | Kind::Real) => false,
-        };
-        is_word && !self.is_written(name)
-    }
-
     /// Whether a name leads to one variable or bit of a word, whatever indices are.
     fn is_direct(&self, name: &str) -> bool {
         let word = bit_of_word(name).map_or(name, |(word, _)| word);
@@ -403,104 +274,6 @@ impl<'k> Store<'k> {
         }
         let source = Source::Event(of.clone());
         self.inputs.free(&mut self.net, &name, source)
-    }
-
-    /// Gives a variable a value under a condition.
-    pub(super) fn write(&mut self, name: &str, value: &Value, when: Signal) -> Result<(), Refusal> {
-        if !name.contains('[') || self.is_direct(name) {
-            let key = self.key(name);
-            self.put(key, value, when);
-            return Ok(());
-        }
-        if is_nested(name) {
-            return Err(Refusal::NestedIndex(name.into()));
-        }
-        let Some(targets) = self.targets(name) else {
-            return Err(Refusal::UnknownTarget(name.into()));
-        };
-        for (target, also) in targets {
-            let when = self.net.and(when, also);
-            let key = self.key(&target);
-            self.put(key, value, when);
-        }
-        Ok(())
-    }
-
-    fn put(&mut self, key: Key, value: &Value, when: Signal) {
-        let (name, value) = match key {
-            Key::Whole(name) => {
-                let converted = self.converted(&name, value);
-                let converted = match bit_of_word(&name) {
-                    Some(_) => Value::bit(self.on(&converted, &name)),
-                    None => converted,
-                };
-                (name, converted)
-            }
-            Key::BitOf(word, bit) => {
-                self.knowledge.writes_bit(&word, bit);
-                let changed = self.with_bit(&word, bit, value);
-                (word, changed)
-            }
-        };
-        self.note_write(&name, &value);
-        let before = self.load(&name);
-        let after = chosen(&mut self.net, when, &value, &before);
-        let after = match after {
-            Some(after) if after.cases().len() <= MOST_VALUES => after,
-            _ => self.unknown(),
-        };
-        self.now.insert(name, after);
-    }
-
-    /// A value turned into the declared type of a variable.
-    fn converted(&mut self, name: &Name, value: &Value) -> Value {
-        match (value, self.names.kind(name)) {
-            (Value::Unknown(_), Some(Kind::Bool)) => return Value::bit(self.on(value, name)),
-            // The nearest whole number may be another one.
-            (Value::Unknown(number), Some(Kind::Integer)) => {
-                let from = self.outside.get(number);
-                return match from.and_then(|it| self.names.kind(it)) {
-                    Some(Kind::Integer) => value.clone(),
-                    _ => self.unknown(),
-                };
-            }
-            (Value::Unknown(_), _) => return value.clone(),
-            _ => {}
-        }
-        if let Value::Word(word) = value {
-            match self.names.kind(name) {
-                Some(Kind::Bool) => return Value::bit(word.on(&mut self.net)),
-                Some(Kind::Integer) => return Value::Word(word.clone().number()),
-                None => return value.clone(),
-                Some(Kind::Real) => {}
-            }
-        }
-        let Some(cases) = value.listed(&mut self.net) else {
-            return self.unknown();
-        };
-        let cases = cases.iter();
-        let cases = cases.map(|(value, when)| (self.names.converted(name, *value), *when));
-        let cases = cases.collect();
-        gathered(&mut self.net, cases)
-    }
-
-    /// What a word holds, with a bit changed.
-    fn with_bit(&mut self, word: &Name, bit: u32, value: &Value) -> Value {
-        let before = self.load(word);
-        if let Value::Known(_) = before {
-            let changed = applied(&mut self.net, &[&before, value], |both| {
-                let rest = both[0].integer() & !(1 << bit);
-                Datum::Integer(rest | i64::from(both[1].is_on()) << bit)
-            });
-            if let Some(changed) = changed {
-                return changed;
-            }
-        }
-        let on = self.on(value, &format!("{word}.{bit}"));
-        match before.rounded(&mut self.net) {
-            Some(word) => Value::Word(word.with(bit, on)),
-            None => self.unknown(),
-        }
     }
 
     /// What everything holds now.
