@@ -16,6 +16,7 @@ mod plain;
 mod specs;
 
 mod beside;
+mod boxes;
 mod charts;
 mod corpus;
 mod ladders;

@@ -1,5 +1,6 @@
 //! The variables of a program while a scan is followed in signals.
 
+mod bitwise;
 mod learning;
 mod outside;
 mod terms;

@@ -111,14 +111,15 @@ impl Store<'_> {
         self.computed(text, false, |store, stored| store.operand(text, stored))
     }
 
-    /// The value of a constant, or of a variable that is followed or on or off: what
-    /// need not be computed. `None` of all else.
-    fn direct(&mut self, text: &str) -> Option<Value> {
+    /// The value of a constant, of a variable that is followed or on or off, or of words
+    /// that are joined bit by bit: what need not be computed value by value. `None` of
+    /// all else.
+    pub(super) fn direct(&mut self, text: &str) -> Option<Value> {
         if let Some(value) = Datum::constant(text).filter(|_| !self.is_written(text)) {
             return Some(Value::constant(value));
         }
         if !is_plain(text) {
-            return None;
+            return self.bitwise(text);
         }
         if !self.is_direct(text) {
             return self.indexed(text);
