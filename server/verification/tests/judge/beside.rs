@@ -1,13 +1,15 @@
 //! A ladder's machine and its translation on the same inputs.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::ops::AddAssign;
+use std::sync::Arc;
 
 use ladder::scan::Machine;
 use ladder::{ElementKind, Program, TimerKind};
 use logic::{Datum, Name};
 use proof::{Netlist, Signal, Touched, Trace, replay};
 use verification::inputs::Source;
-use verification::program::Followed;
+use verification::program::{Bounds, Followed, follow};
 
 use crate::random::Random;
 
@@ -19,6 +21,35 @@ pub struct Compared {
     pub changing: usize,
     /// Variables that depend on what is not followed.
     pub left_out: usize,
+}
+
+impl AddAssign for Compared {
+    fn add_assign(&mut self, other: Self) {
+        self.values += other.values;
+        self.variables += other.variables;
+        self.changing += other.changing;
+        self.left_out += other.left_out;
+    }
+}
+
+/// The program of a text without errors.
+pub fn program(text: &str) -> Arc<Program> {
+    let reading = ladder::read(text.as_bytes());
+    let mut found = reading.diagnostics.iter();
+    let error = found.find(|it| it.severity == source::Severity::Error);
+    assert!(error.is_none(), "{error:?}\n{text}");
+    reading.program
+}
+
+/// Compares the ladder of a text with its translation; shows the text if they
+/// differ.
+pub fn compare_text(text: &str, scans: usize, random: &mut Random) -> Compared {
+    let program = program(text);
+    let followed = follow(&program, None, &Bounds::default())
+        .unwrap_or_else(|refusal| panic!("{refusal}\n{text}"));
+    let compared = || compare(&program, &followed, scans, random);
+    std::panic::catch_unwind(std::panic::AssertUnwindSafe(compared))
+        .unwrap_or_else(|_| panic!("{text}"))
 }
 
 /// How the event of an instance follows from what the machine shows after the

@@ -1,8 +1,6 @@
 //! Random ladders of Rockwell instructions that join, move and compare words.
 
-use verification::program::{Bounds, follow};
-
-use crate::beside::{Compared, compare};
+use crate::beside::{Compared, compare_text};
 use crate::random::Random;
 
 const PROGRAMS: u64 = 200;
@@ -105,21 +103,7 @@ fn boxes_that_join_words_do_what_their_translations_do() {
     let mut all = Compared::default();
     for _ in 0..PROGRAMS {
         let text = Maker(&mut random).text();
-        let reading = ladder::read(text.as_bytes());
-        let mut found = reading.diagnostics.iter();
-        let error = found.find(|it| it.severity == source::Severity::Error);
-        assert!(error.is_none(), "{error:?}\n{text}");
-        let program = reading.program;
-        let followed = follow(&program, None, &Bounds::default())
-            .unwrap_or_else(|refusal| panic!("{refusal}\n{text}"));
-        let one = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| {
-            compare(&program, &followed, SCANS, &mut random)
-        }));
-        let one = one.unwrap_or_else(|_| panic!("{text}"));
-        all.values += one.values;
-        all.variables += one.variables;
-        all.changing += one.changing;
-        all.left_out += one.left_out;
+        all += compare_text(&text, SCANS, &mut random);
     }
     println!("{all:?}");
     assert!(2 * all.changing > all.variables, "{all:?}");

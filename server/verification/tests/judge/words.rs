@@ -9,7 +9,7 @@ use proof::{Trace, replay};
 use verification::chart;
 use verification::program::{Bounds, Followed, follow};
 
-use crate::beside::{Compared, Shown, compare};
+use crate::beside::{Compared, Shown, compare_text, program};
 use crate::random::Random;
 
 const PROGRAMS: u64 = 400;
@@ -210,30 +210,10 @@ fn each(mut judge: impl FnMut(&str, &str, &mut Random)) {
     }
 }
 
-fn program(text: &str) -> std::sync::Arc<ladder::Program> {
-    let reading = ladder::read(text.as_bytes());
-    let mut found = reading.diagnostics.iter();
-    let error = found.find(|it| it.severity == source::Severity::Error);
-    assert!(error.is_none(), "{error:?}\n{text}");
-    reading.program
-}
-
 #[test]
 fn words_do_what_their_translations_do() {
     let mut all = Compared::default();
-    each(|text, _, random| {
-        let program = program(text);
-        let followed = follow(&program, None, &Bounds::default())
-            .unwrap_or_else(|refusal| panic!("{refusal}\n{text}"));
-        let one = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| {
-            compare(&program, &followed, SCANS, random)
-        }));
-        let one = one.unwrap_or_else(|_| panic!("{text}"));
-        all.values += one.values;
-        all.variables += one.variables;
-        all.changing += one.changing;
-        all.left_out += one.left_out;
-    });
+    each(|text, _, random| all += compare_text(text, SCANS, random));
     println!("{all:?}");
     assert!(4 * all.changing > all.variables, "{all:?}");
     assert!(all.variables > 8 * all.left_out, "{all:?}");

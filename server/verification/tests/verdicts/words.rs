@@ -87,24 +87,33 @@ fn a_word_from_the_plant_has_every_value_that_its_bits_can_tell_apart() {
     assert_told(&found.verdict, "In=8 | b | -\ndiffer: b");
 }
 
+/// Of a ladder and what a spec does always.
+#[track_caller]
+fn assert_found(ladder: &str, inputs: &str, always: &str, expected: &str) {
+    let found = verified(ladder, &spec(inputs, "a", always), Timing::Scan);
+    assert_told(&found.verdict, expected);
+}
+
 #[test]
 fn the_highest_bit_of_a_signed_word_is_its_sign() {
     let ladder = "program P\ninput In : SINT\noutput a\nrung: In.7 * In.0 -> a\n";
-    let found = verified(ladder, &spec("In", "a", "X0: In < 0 |- a\n"), Timing::Scan);
-    assert_told(&found.verdict, "In=-128 | - | a\ndiffer: a");
+    let always = "X0: In < 0 |- a\n";
+    assert_found(ladder, "In", always, "In=-128 | - | a\ndiffer: a");
     let ladder = ladder.replace("SINT", "BYTE");
-    let found = verified(&ladder, &spec("In", "a", "X0: In < 0 |- a\n"), Timing::Scan);
-    assert_told(&found.verdict, "In=129 | a | -\ndiffer: a");
+    assert_found(&ladder, "In", always, "In=129 | a | -\ndiffer: a");
 }
 
 #[test]
 fn the_one_side_looks_at_bits_and_the_other_at_the_word() {
     let ladder = "program P\ninput In : BYTE\noutput a\nrung: In.0 + In.1 + In.2 + In.3 + In.4 + In.5 + In.6 -> a\n";
-    let found = verified(ladder, &spec("In", "a", "X0: In > 0 |- a\n"), Timing::Scan);
-    assert_told(&found.verdict, "In=128 | - | a\ndiffer: a");
+    assert_found(
+        ladder,
+        "In",
+        "X0: In > 0 |- a\n",
+        "In=128 | - | a\ndiffer: a",
+    );
     let ladder = "program P\ninput In : BYTE\noutput a\nrung: In >= 128 -> a\n";
-    let found = verified(ladder, &spec("In.7", "a", "X0: In.7 |- a\n"), Timing::Scan);
-    assert_told(&found.verdict, "equivalent");
+    assert_found(ladder, "In.7", "X0: In.7 |- a\n", "equivalent");
 }
 
 #[test]
