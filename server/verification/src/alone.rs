@@ -14,7 +14,7 @@ const MOST_EVOLUTIONS: usize = 256;
 
 /// A ladder as a netlist. Its outputs are the variables that are declared so, or,
 /// where none is, all that the ladder writes; of a number there is an output for
-/// each value.
+/// each value, or for each bit where its bits are followed.
 pub fn of_ladder(program: &Program, limits: &Limits) -> Result<Netlist, Refusal> {
     let followed = program::follow(program, None, &bounds(limits))?;
     let declared = program
@@ -30,7 +30,12 @@ pub fn of_ladder(program: &Program, limits: &Limits) -> Result<Netlist, Refusal>
     }
     let mut netlist = followed.netlist.clone();
     for name in names {
-        show(&mut netlist, &name, followed.cases(&name));
+        show(
+            &mut netlist,
+            &name,
+            followed.cases(&name),
+            followed.bits(&name),
+        );
     }
     Ok(netlist)
 }
@@ -47,7 +52,7 @@ pub fn of_spec(spec: &Spec, limits: &Limits) -> Result<Netlist, Refusal> {
             Verdict::Equivalent => {
                 let mut netlist = evolved.netlist.clone();
                 for name in evolved.outputs() {
-                    show(&mut netlist, name, evolved.cases(name));
+                    show(&mut netlist, name, evolved.cases(name), evolved.bits(name));
                 }
                 return Ok(netlist);
             }
@@ -81,8 +86,11 @@ fn written(program: &Program) -> Vec<Name> {
     names
 }
 
-/// Names the values of a variable as outputs.
-fn show(netlist: &mut Netlist, name: &Name, cases: &[(Datum, Signal)]) {
+/// Names the values of a variable as outputs, or its bits where these are followed.
+fn show(netlist: &mut Netlist, name: &Name, cases: &[(Datum, Signal)], bits: &[Signal]) {
+    for (at, bit) in bits.iter().enumerate() {
+        netlist.output(format!("{name}.{at}"), *bit);
+    }
     let is_bit = cases
         .iter()
         .all(|(value, _)| matches!(value, Datum::Bool(_)));

@@ -1,10 +1,28 @@
-//! The constants that a spec compares variables with.
+//! What a spec looks at: its variables, and the constants that it compares them
+//! with.
 
 use grafcet::Spec;
+use grafcet::evolution::{Effect, Net, Operand};
 use logic::{Atom, Datum, Expr, Name};
 
-/// Each variable with a constant that it is compared with.
-pub(crate) fn constants(spec: &Spec) -> Vec<(Name, Datum)> {
+use crate::rules::names_of;
+
+/// The variables of a spec whose grafcet is this, as it calls them.
+pub(crate) fn names(spec: &Spec, net: &Net) -> Vec<Name> {
+    let mut names = net.variables.clone();
+    let rules = spec.environment.iter();
+    let expressions = rules.flat_map(|rule| [&rule.left, &rule.right]);
+    let expressions = expressions.chain(spec.never.iter().map(|it| &it.condition));
+    for name in expressions.flat_map(names_of) {
+        let plain = grafcet::is_in_next_scan(&name).map(Name::from);
+        names.push(plain.unwrap_or(name));
+    }
+    names
+}
+
+/// Each variable that a spec whose grafcet is this looks at as a number, with a
+/// constant that it is compared with; without one where its very value counts.
+pub(crate) fn numbers(spec: &Spec, net: &Net) -> Vec<(Name, Option<Datum>)> {
     let mut found = Vec::new();
     for transition in spec.grafcet.transitions() {
         of(&transition.receptivity, &mut found);
@@ -19,6 +37,15 @@ pub(crate) fn constants(spec: &Spec) -> Vec<(Name, Datum)> {
             of(event, &mut found);
         }
     }
+    for action in &net.stored {
+        if let Effect::Assign(term) = &action.effect {
+            let read = term.operands().filter_map(|operand| match operand {
+                Operand::Variable(at) => Some((net.variables[*at].clone(), None)),
+                _ => None,
+            });
+            found.extend(read);
+        }
+    }
     for rule in &spec.environment {
         of(&rule.left, &mut found);
         of(&rule.right, &mut found);
@@ -29,7 +56,7 @@ pub(crate) fn constants(spec: &Spec) -> Vec<(Name, Datum)> {
     found
 }
 
-fn of(expr: &Expr, found: &mut Vec<(Name, Datum)>) {
+fn of(expr: &Expr, found: &mut Vec<(Name, Option<Datum>)>) {
     match expr {
         Expr::Constant(_) => {}
         Expr::Not(inner) => of(inner, found),
@@ -37,10 +64,10 @@ fn of(expr: &Expr, found: &mut Vec<(Name, Datum)>) {
         Expr::Atom(Atom::Rise(inner) | Atom::Fall(inner)) => of(inner, found),
         Expr::Atom(Atom::Comparison(it)) => {
             let sides = [(&it.left, &it.right), (&it.right, &it.left)];
-            for (name, constant) in sides {
+            for (name, other) in sides {
                 let name = grafcet::is_in_next_scan(name).unwrap_or(name);
-                if let (None, Some(constant)) = (Datum::constant(name), Datum::constant(constant)) {
-                    found.push((name.into(), constant));
+                if Datum::constant(name).is_none() {
+                    found.push((name.into(), Datum::constant(other)));
                 }
             }
         }

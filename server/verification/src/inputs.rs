@@ -7,6 +7,7 @@ use logic::{Datum, Name};
 use proof::{Gates, Netlist, Signal};
 
 use crate::value::{Value, gathered};
+use crate::word::Word;
 
 /// What an input of a translation stands for.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,6 +21,14 @@ pub enum Source {
         variable: Name,
         /// The value.
         value: Datum,
+    },
+    /// A bit of a variable that is a whole number, the lowest being 0. The highest
+    /// is the sign, where its type has one.
+    WordBit {
+        /// The variable.
+        variable: Name,
+        /// The bit.
+        bit: u32,
     },
     /// When a timer runs out, or a counter is at its preset: decided by time or
     /// numbers that are not followed. The timer or counter.
@@ -36,6 +45,16 @@ pub enum Source {
     Opaque(Name),
 }
 
+impl Source {
+    /// Whether the plant or a person gives it, and not time or what is not followed.
+    pub fn is_given(&self) -> bool {
+        match self {
+            Self::Bit(_) | Self::Choice { .. } | Self::WordBit { .. } => true,
+            Self::Event(_) | Self::Elapsed { .. } | Self::Opaque(_) => false,
+        }
+    }
+}
+
 /// The inputs of a translation.
 #[derive(Clone, Debug, Default)]
 pub struct Inputs {
@@ -43,6 +62,8 @@ pub struct Inputs {
     pub sources: Vec<Source>,
     /// The value of a variable none of whose [choices](Source::Choice) is on.
     pub resting: BTreeMap<Name, Datum>,
+    /// The place of the sign in a variable whose bits are inputs.
+    signs: BTreeMap<Name, u32>,
 }
 
 impl Inputs {
@@ -50,20 +71,35 @@ impl Inputs {
     pub fn values(&self, row: &[bool]) -> Vec<(Name, Datum)> {
         let mut values = Vec::new();
         let mut numbers: BTreeMap<&Name, Datum> = BTreeMap::new();
+        let mut words: BTreeMap<&Name, i64> = BTreeMap::new();
         for (source, on) in self.sources.iter().zip(row) {
             match source {
                 Source::Bit(name) => values.push((name.clone(), (*on).into())),
                 Source::Choice { variable, value } if *on => {
                     numbers.entry(variable).or_insert(*value);
                 }
+                Source::WordBit { variable, bit } => {
+                    *words.entry(variable).or_default() |= self.set(variable, *bit, *on);
+                }
                 _ => {}
             }
         }
+        let words = words.into_iter();
+        values.extend(words.map(|(name, word)| (name.clone(), word.into())));
         for (name, rest) in &self.resting {
             let value = numbers.get(name).unwrap_or(rest);
             values.push((name.clone(), *value));
         }
         values
+    }
+
+    /// What a bit that is on adds to its word.
+    fn set(&self, variable: &Name, bit: u32, on: bool) -> i64 {
+        match (on, self.signs.get(variable)) {
+            (false, _) => 0,
+            (true, Some(sign)) if *sign == bit => -1 << bit,
+            (true, _) => 1 << bit,
+        }
     }
 
     fn add(&mut self, net: &mut Netlist, name: &str, source: Source) -> Signal {
@@ -77,6 +113,33 @@ impl Inputs {
     /// A variable that is on or off.
     pub(crate) fn bit(&mut self, net: &mut Netlist, name: &Name) -> Signal {
         self.add(net, name, Source::Bit(name.clone()))
+    }
+
+    /// A whole number with so many bits, the highest of which is its sign if it has
+    /// one.
+    pub(crate) fn word(
+        &mut self,
+        net: &mut Netlist,
+        name: &Name,
+        bits: u32,
+        is_signed: bool,
+    ) -> Word {
+        let own = (0..bits).map(|bit| {
+            let source = Source::WordBit {
+                variable: name.clone(),
+                bit,
+            };
+            self.add(net, &format!("{name}.{bit}"), source)
+        });
+        let own: Vec<Signal> = own.collect();
+        let above = match own.last() {
+            Some(sign) if is_signed => {
+                self.signs.insert(name.clone(), bits - 1);
+                *sign
+            }
+            _ => Signal::FALSE,
+        };
+        Word::of(|at| own.get(at).copied().unwrap_or(above), true)
     }
 
     /// Something else that is free in each scan.

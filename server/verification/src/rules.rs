@@ -15,7 +15,7 @@ use crate::chart::Evolved;
 use crate::frame::Frame;
 use crate::program::Followed;
 use crate::refusal::Refusal;
-use crate::value::{Value, applied};
+use crate::value::Value;
 
 /// The atoms of rules and properties, at the end of a scan.
 pub(crate) struct Atoms<'s> {
@@ -64,7 +64,7 @@ impl<'s> Atoms<'s> {
             Expr::Atom(Atom::Elapsed { .. }) => Err(Refusal::RuleAboutTime(label.clone())),
             Expr::Atom(atom @ Atom::Variable(name)) => {
                 let value = self.value(plain(name));
-                let on = value.on(&mut self.evolved.netlist);
+                let on = self.ladder.ranges().on(&value, &mut self.evolved.netlist);
                 self.know(atom, on, label)
             }
             Expr::Atom(atom @ Atom::Comparison(it)) => {
@@ -73,10 +73,8 @@ impl<'s> Atoms<'s> {
                     None => self.value(plain(side)),
                 });
                 let net = &mut self.evolved.netlist;
-                let compared = applied(net, &[&sides[0], &sides[1]], |both| {
-                    both[0].compares(it.relation, both[1]).into()
-                });
-                let on = compared.and_then(|it| it.on(net));
+                let ranges = self.ladder.ranges();
+                let on = ranges.compares(net, [&sides[0], &sides[1]], it.relation);
                 self.know(atom, on, label)
             }
         }

@@ -126,7 +126,6 @@ impl System {
             .iter()
             .flatten()
             .filter_map(|at| self.evolved.inputs.sources.get(*at));
-        let is_free = |source: &&Source| !matches!(source, Source::Bit(_) | Source::Choice { .. });
-        sources.filter(is_free).cloned().collect()
+        sources.filter(|it| !it.is_given()).cloned().collect()
     }
 }

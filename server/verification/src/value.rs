@@ -3,13 +3,21 @@
 //! A variable of a program holds one of finitely many values, and a signal for
 //! each says when. Booleans are the common case: two values, one signal and its
 //! complement. What computes with numbers is tried for every value that its
-//! operands can have.
+//! operands can have. A word whose bits are written one by one has too many
+//! values for that: it is kept by its bits.
+
+use std::borrow::Cow;
 
 use logic::{Datum, Relation};
 use proof::{Gates, Netlist, Signal};
 
+use crate::word::Word;
+
 /// A variable that can have more values than this is not followed.
 pub(crate) const MOST_VALUES: usize = 96;
+
+/// So many pairs of values are compared pair by pair, more by their bits.
+const FEW_PAIRS: usize = 64;
 
 /// What a variable holds at some point of a scan.
 #[derive(Clone, Debug)]
@@ -17,6 +25,8 @@ pub(crate) enum Value {
     /// Each value that it can have, and when. No two of the signals are 1 at
     /// once, and one of them is.
     Known(Vec<(Datum, Signal)>),
+    /// A whole number by its bits.
+    Word(Word),
     /// A number that is not followed. Equal numbers mean the same unknown.
     Unknown(usize),
 }
@@ -44,40 +54,104 @@ impl Value {
                 [(Datum::Bool(false), _), (Datum::Bool(true), on)] => Some(*on),
                 _ => None,
             },
+            Self::Word(_) | Self::Unknown(_) => None,
+        }
+    }
+
+    /// When it is on. `None` if it is unknown.
+    pub fn on(&self, net: &mut Netlist) -> Option<Signal> {
+        let all = match self {
+            Self::Known(all) => all,
+            Self::Word(word) => return Some(word.on(net)),
+            Self::Unknown(_) => return None,
+        };
+        let on = all.iter().filter(|(value, _)| value.is_on());
+        let on: Vec<Signal> = on.map(|(_, when)| *when).collect();
+        Some(match on.len() == all.len() {
+            true => Signal::TRUE,
+            false => net.any(&on),
+        })
+    }
+
+    /// The values with their signals; none of an unknown, or of a word by its bits.
+    pub fn cases(&self) -> &[(Datum, Signal)] {
+        match self {
+            Self::Known(all) => all,
+            Self::Word(_) | Self::Unknown(_) => &[],
+        }
+    }
+
+    /// Its bits, if it is a word by its bits.
+    pub fn bits(&self) -> &[Signal] {
+        match self {
+            Self::Word(word) => word.bits(),
+            Self::Known(_) | Self::Unknown(_) => &[],
+        }
+    }
+
+    /// The values with their signals. `None` if it is unknown, or has too many.
+    pub fn listed(&self, net: &mut Netlist) -> Option<Cow<'_, [(Datum, Signal)]>> {
+        match self {
+            Self::Known(all) => Some(Cow::Borrowed(all)),
+            Self::Word(word) => word.cases(net).map(Cow::Owned),
             Self::Unknown(_) => None,
         }
     }
 
-    /// When it is one of the values that `holds` picks. `None` if it is unknown.
-    pub fn when(&self, net: &mut Netlist, holds: impl Fn(Datum) -> bool) -> Option<Signal> {
-        let Self::Known(all) = self else {
-            return None;
-        };
-        let picked = all.iter().filter(|(value, _)| holds(*value));
-        let picked: Vec<Signal> = picked.map(|(_, when)| *when).collect();
-        Some(match picked.len() == all.len() {
-            true => Signal::TRUE,
-            false => net.any(&picked),
-        })
-    }
-
-    /// When it is on.
-    pub fn on(&self, net: &mut Netlist) -> Option<Signal> {
-        self.when(net, Datum::is_on)
-    }
-
-    /// The values with their signals; none of an unknown.
-    pub fn cases(&self) -> &[(Datum, Signal)] {
+    /// Its bits, of the nearest whole number. `None` if it is unknown.
+    pub fn rounded(&self, net: &mut Netlist) -> Option<Word> {
         match self {
-            Self::Known(all) => all,
-            Self::Unknown(_) => &[],
+            Self::Known(all) => Some(Word::of_cases(net, all)),
+            Self::Word(word) => Some(word.clone()),
+            Self::Unknown(_) => None,
+        }
+    }
+
+    /// The same by its bits. `None` if it is unknown or has a fraction.
+    pub fn word(&self, net: &mut Netlist) -> Option<Word> {
+        let is_whole = |(value, _): &(Datum, Signal)| !matches!(value, Datum::Real(_));
+        match self {
+            Self::Known(all) if !all.iter().all(is_whole) => None,
+            value => value.rounded(net),
+        }
+    }
+
+    /// When the relation holds with another. `None` if one is unknown or too many
+    /// cases would have to be tried.
+    pub fn compares(&self, net: &mut Netlist, relation: Relation, other: &Self) -> Option<Signal> {
+        match (self, other) {
+            (Self::Word(own), Self::Word(other)) => Some(own.compares(net, relation, other)),
+            (Self::Word(own), Self::Known(others)) => {
+                if let Some(other) = other.word(net) {
+                    return Some(own.compares(net, relation, &other));
+                }
+                let mut holds = Vec::with_capacity(others.len());
+                for (value, when) in others {
+                    let also = own.compares_with(net, relation, *value)?;
+                    holds.push(net.and(*when, also));
+                }
+                Some(net.any(&holds))
+            }
+            (Self::Known(_), Self::Word(_)) => other.compares(net, relation.mirrored(), self),
+            (Self::Known(own), Self::Known(others))
+                if own.len() * others.len() > FEW_PAIRS
+                    && let (Some(own), Some(other)) = (self.word(net), other.word(net)) =>
+            {
+                Some(own.compares(net, relation, &other))
+            }
+            _ => {
+                let compared = applied(net, &[self, other], |both| {
+                    both[0].compares(relation, both[1]).into()
+                });
+                compared.and_then(|it| it.on(net))
+            }
         }
     }
 
     /// When it equals another as a number, off being 0 and on 1.
     pub fn equals(&self, other: &Self, net: &mut Netlist) -> Option<Signal> {
         let (Self::Known(own), Self::Known(others)) = (self, other) else {
-            return None;
+            return self.compares(net, Relation::Equal, other);
         };
         if let (Some(one), Some(two)) = (self.as_bit(), other.as_bit()) {
             return Some(net.equal(one, two));
@@ -152,6 +226,11 @@ pub(crate) fn chosen(
             }
             Some(gathered(net, cases))
         }
+        (Value::Word(_), _) | (_, Value::Word(_)) => {
+            let (then, otherwise) = (then.word(net)?, otherwise.word(net)?);
+            let word = Word::chosen(net, condition, &then, &otherwise);
+            Some(Value::Word(word))
+        }
         _ => None,
     }
 }
@@ -165,15 +244,13 @@ pub(crate) fn applied(
 ) -> Option<Value> {
     let mut cases: Vec<(Vec<Datum>, Signal)> = vec![(Vec::new(), Signal::TRUE)];
     for value in values {
-        let Value::Known(all) = value else {
-            return None;
-        };
+        let all = value.listed(net)?;
         if cases.len() * all.len() > MOST_VALUES * MOST_VALUES {
             return None;
         }
         let mut longer = Vec::with_capacity(cases.len() * all.len());
         for (before, when) in &cases {
-            for (value, also) in all {
+            for (value, also) in &*all {
                 let when = net.and(*when, *also);
                 if when != Signal::FALSE {
                     let mut values = before.clone();

@@ -68,6 +68,14 @@ impl Term {
         self.0.iter().map(|part| &part.operand)
     }
 
+    /// The operand whose value it is as it is, if it is one.
+    pub fn copied(&self) -> Option<&Operand> {
+        match self.0.as_slice() {
+            [only] if !only.is_negative => Some(&only.operand),
+            _ => None,
+        }
+    }
+
     /// The value, where `next` gives that of each operand in turn.
     pub fn sum(&self, mut next: impl FnMut() -> Datum) -> Datum {
         let mut values = self.0.iter().map(|part| {

@@ -67,11 +67,18 @@ impl Names {
     }
 
     /// Whether a value can be stored under this very name: it is no constant,
-    /// no other name of something, no bit of a word, and has no variable index.
+    /// no other name of something, no bit of a word, and has no index that can be
+    /// looked up.
     pub fn is_stored(&self, name: &str) -> bool {
-        let is_index = |text: &str| text.chars().all(|c| c.is_ascii_digit() || c == ',');
+        let is_number = |text: &str| text.parse().is_ok_and(|it: i64| it.to_string() == text);
+        let is_index = |text: &str| text.split(',').all(is_number);
         let has_variable_index = match brackets(name, 0) {
-            Some((open, close)) => !is_index(&name[open + 1..close]),
+            Some((open, close)) => {
+                let index = &name[open + 1..close];
+                // What is no term, `[?](x)`, is a part of the name.
+                let is_term = || index.contains('[') || self.index(index, &|_| None).is_some();
+                !is_index(index) && is_term()
+            }
             None => false,
         };
         !has_variable_index

@@ -26,10 +26,12 @@ use proof::{Netlist, Signal};
 
 use self::state::State;
 use crate::compared;
+use crate::domain::Domain;
 use crate::inputs::Inputs;
 use crate::program::{Bounds, Followed};
+use crate::ranges::Ranges;
 use crate::refusal::Refusal;
-use crate::value::{MOST_VALUES, Value};
+use crate::value::Value;
 
 /// So often a grafcet is followed to find the values of its variables.
 const MOST_PASSES: usize = 400;
@@ -52,7 +54,7 @@ pub struct Evolved {
 }
 
 /// The values that each variable can have when a scan begins.
-type Domains = Vec<Vec<Datum>>;
+type Domains = Vec<Domain>;
 
 /// Follows the grafcet of a spec, beside a ladder if there is one, through so
 /// many evolutions a scan.
@@ -71,14 +73,11 @@ pub fn follow(
         .iter()
         .map(|step| start.is_active(&step.name))
         .collect();
-    let mut numbers: BTreeMap<Name, Vec<Datum>> = BTreeMap::new();
-    for (name, constant) in compared::constants(spec) {
-        let known = numbers
-            .entry(name)
-            .or_insert_with(|| vec![Datum::Integer(0)]);
-        known.push(constant);
+    let mut numbers: BTreeMap<Name, Vec<Option<Datum>>> = BTreeMap::new();
+    for (name, constant) in compared::numbers(spec, net) {
+        numbers.entry(name).or_default().push(constant);
     }
-    let mut domains: Domains = vec![vec![Datum::default()]; net.variables.len()];
+    let mut domains: Domains = vec![Domain::Values(vec![Datum::default()]); net.variables.len()];
     for _ in 0..MOST_PASSES {
         bounds.is_wanted()?;
         let mut pass = Pass {
@@ -89,6 +88,7 @@ pub fn follow(
             edges: vec![Signal::FALSE; net.edges.len()],
             elapsed: BTreeMap::new(),
             numbers: &numbers,
+            ranges: ladder.map_or_else(Ranges::default, |it| it.ranges().clone()),
             unknowns: FIRST_UNKNOWN,
             bounds,
         };
@@ -123,27 +123,24 @@ pub fn follow(
 const FIRST_UNKNOWN: usize = 1 << 40;
 
 /// Adds the values that variables have at the end of a scan. Whether any is
-/// new. A variable with too many is not followed: its domain is empty.
+/// new.
 fn learn(domains: &mut Domains, state: &State, net: &Net) -> bool {
     let mut has_learnt = false;
     for (at, domain) in domains.iter_mut().enumerate() {
-        if !net.is_own[at] || domain.is_empty() {
+        if !net.is_own[at] || *domain == Domain::Unknown {
             continue;
         }
-        let Value::Known(cases) = &state.values[at] else {
-            domain.clear();
-            has_learnt = true;
-            continue;
-        };
-        for (value, _) in cases {
-            if domain.iter().all(|known| known.key() != value.key()) {
-                domain.push(*value);
-                has_learnt = true;
+        let before = domain.clone();
+        match &state.values[at] {
+            Value::Known(cases) => {
+                for (value, _) in cases {
+                    domain.add(*value);
+                }
             }
+            Value::Word(word) => domain.widen(word),
+            Value::Unknown(_) => *domain = Domain::Unknown,
         }
-        if domain.len() > MOST_VALUES {
-            domain.clear();
-        }
+        has_learnt |= *domain != before;
     }
     has_learnt
 }
@@ -159,7 +156,9 @@ struct Pass<'g> {
     /// By step and milliseconds: whether the time has passed, as far as the
     /// step has been active all the time.
     elapsed: BTreeMap<(usize, u64), Signal>,
-    numbers: &'g BTreeMap<Name, Vec<Datum>>,
+    /// What numbers are compared with; nothing where their very value counts.
+    numbers: &'g BTreeMap<Name, Vec<Option<Datum>>>,
+    ranges: Ranges,
     unknowns: usize,
     bounds: &'g Bounds,
 }
@@ -181,6 +180,12 @@ impl Evolved {
     /// if there is no such variable, or if it is not followed.
     pub fn cases(&self, name: &str) -> &[(Datum, Signal)] {
         self.value(name).map_or(&[], Value::cases)
+    }
+
+    /// The bits of a whole number that is followed by its bits, from the lowest to
+    /// the sign, when a scan has ended. None of all else.
+    pub fn bits(&self, name: &str) -> &[Signal] {
+        self.value(name).map_or(&[], Value::bits)
     }
 
     /// What a variable holds when a scan has ended.

@@ -1,13 +1,14 @@
 //! What conditions see.
 
 use grafcet::evolution::{Condition, Operand};
-use logic::{Expr, Name, Relation};
+use logic::{Datum, Expr, Name, Relation};
 use proof::{Gates, Signal};
 
 use super::Pass;
 use super::state::State;
 use crate::inputs::Source;
-use crate::value::{Value, applied};
+use crate::ranges::Ranged;
+use crate::value::Value;
 
 impl Pass<'_> {
     /// A variable that the grafcet does not write: the ladder's, if the ladder
@@ -19,13 +20,20 @@ impl Pass<'_> {
         {
             return value;
         }
-        match self.numbers.get(name) {
-            Some(compared) => {
-                let kind = self.ladder.and_then(|it| it.kind(name));
-                self.inputs.number(&mut self.netlist, name, kind, compared)
-            }
-            None => Value::bit(self.inputs.bit(&mut self.netlist, name)),
+        let Some(numbers) = self.numbers.get(name) else {
+            return Value::bit(self.inputs.bit(&mut self.netlist, name));
+        };
+        let kind = self.ladder.and_then(|it| it.kind(name));
+        let mut compared: Vec<Datum> = numbers.iter().copied().flatten().collect();
+        compared.push(Datum::Integer(0));
+        let value = self.inputs.number(&mut self.netlist, name, kind, &compared);
+        if !numbers.contains(&None) {
+            return value;
         }
+        self.unknowns += 1;
+        let ranged = Ranged { value, compared };
+        self.ranges.insert(self.unknowns, ranged);
+        Value::Unknown(self.unknowns)
     }
 
     /// Whether a condition holds at this moment, with the edges that occur now.
@@ -35,13 +43,14 @@ impl Pass<'_> {
             Condition::Step(at) => state.active[*at],
             Condition::Variable(at) => {
                 let value = &state.values[*at];
-                match (value.on(&mut self.netlist), value) {
+                let on = self.ranges.on(value, &mut self.netlist);
+                match (on, value) {
                     (Some(on), _) => on,
                     (None, Value::Unknown(number)) => {
                         let text = self.net.variables[*at].to_string();
                         self.opaque(&text, vec![*number])
                     }
-                    (None, Value::Known(_)) => Signal::FALSE,
+                    (None, _) => Signal::FALSE,
                 }
             }
             Condition::Comparison {
@@ -78,17 +87,21 @@ impl Pass<'_> {
         state: &State,
     ) -> Signal {
         let sides = [operand(left, state), operand(right, state)];
-        let compared = applied(&mut self.netlist, &[&sides[0], &sides[1]], |both| {
-            both[0].compares(relation, both[1]).into()
-        });
-        if let Some(on) = compared.and_then(|it| it.on(&mut self.netlist)) {
-            return on;
+        let net = &mut self.netlist;
+        let holds = self.ranges.compares(net, [&sides[0], &sides[1]], relation);
+        if let Some(holds) = holds {
+            return holds;
         }
         let mut unknowns: Vec<usize> = sides
             .iter()
             .filter_map(|side| match side {
                 Value::Unknown(number) => Some(*number),
                 Value::Known(_) => None,
+                // What it is at this moment.
+                Value::Word(_) => {
+                    self.unknowns += 1;
+                    Some(self.unknowns)
+                }
             })
             .collect();
         unknowns.sort_unstable();

@@ -1,12 +1,12 @@
 //! What changes while a grafcet runs: its latches, and what they hold now.
 
 use grafcet::evolution::Condition;
-use logic::Datum;
 use proof::{Gates, Signal};
 
 use super::{Domains, Pass};
+use crate::domain::{Domain, Kept};
 use crate::inputs::Source;
-use crate::value::{Value, gathered};
+use crate::value::Value;
 
 /// The situation and the values at one moment of a scan.
 #[derive(Clone, Debug)]
@@ -32,8 +32,8 @@ pub(super) struct Latches {
     kept: Vec<(usize, Signal)>,
     looked_at: Vec<Signal>,
     obeyed: Vec<Signal>,
-    /// A variable, one of its values, and the latch for it.
-    values: Vec<(usize, Datum, Signal)>,
+    /// A variable, a latch of it, and what it stands for.
+    values: Vec<(usize, Kept, Signal)>,
     /// A step, the time, and whether it had passed.
     elapsed: Vec<(usize, u64, Signal)>,
 }
@@ -102,28 +102,15 @@ impl Pass<'_> {
     fn stored_value(
         &mut self,
         at: usize,
-        domain: &[Datum],
-        latches: &mut Vec<(usize, Datum, Signal)>,
+        domain: &Domain,
+        latches: &mut Vec<(usize, Kept, Signal)>,
     ) -> Value {
-        let name = self.net.variables[at].clone();
-        match domain {
-            [] => self.unknown(),
-            [value] => Value::constant(*value),
-            [Datum::Bool(initial), Datum::Bool(_)] => {
-                let latch = self.netlist.latch(name, *initial);
-                latches.push((at, true.into(), latch));
-                Value::bit(latch)
-            }
-            _ => {
-                let mut cases = Vec::new();
-                for (nth, value) in domain.iter().enumerate() {
-                    let latch = self.netlist.latch(format!("{name}={value}"), nth == 0);
-                    latches.push((at, *value, latch));
-                    cases.push((*value, latch));
-                }
-                gathered(&mut self.netlist, cases)
-            }
-        }
+        let name = &self.net.variables[at];
+        let Some((value, own)) = domain.begin(&mut self.netlist, name) else {
+            return self.unknown();
+        };
+        latches.extend(own.into_iter().map(|(kept, latch)| (at, kept, latch)));
+        value
     }
 
     /// The times that conditions ask for. What has passed while the step stayed
@@ -185,10 +172,8 @@ impl Pass<'_> {
         for (at, latch) in &latches.kept {
             net.set_next(*latch, state.kept[*at]);
         }
-        for (at, value, latch) in &latches.values {
-            let mut cases = state.values[*at].cases().iter();
-            let next = cases.find(|(it, _)| it.key() == value.key());
-            let next = next.map_or(Signal::FALSE, |(_, when)| *when);
+        for (at, kept, latch) in &latches.values {
+            let next = kept.next(&state.values[*at], net);
             net.set_next(*latch, next);
         }
         for (step, time, latch) in &latches.elapsed {

@@ -67,6 +67,9 @@ impl Pass<'_> {
     }
 
     fn term(&mut self, term: &Term, state: &State) -> Value {
+        if let Some(only) = term.copied() {
+            return operand(only, state);
+        }
         let operands: Vec<Value> = term.operands().map(|it| operand(it, state)).collect();
         let operands: Vec<&Value> = operands.iter().collect();
         let sum = applied(&mut self.netlist, &operands, |values| {
@@ -89,7 +92,7 @@ impl Pass<'_> {
                 let source = crate::inputs::Source::Opaque(name.clone().into());
                 self.inputs.free(&mut self.netlist, &name, source)
             }
-            (None, Value::Known(_)) => Signal::FALSE,
+            (None, _) => Signal::FALSE,
         };
         state.kept[at] = self.netlist.ite(when, on, state.kept[at]);
     }

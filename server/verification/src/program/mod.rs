@@ -13,29 +13,32 @@
 
 mod boxes;
 mod flow;
+mod given;
 mod knowledge;
 mod memory;
 mod store;
 
-use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
+use std::collections::{BTreeSet, HashMap};
 
-use grafcet::Spec;
+use grafcet::{Spec, evolution};
 use ladder::flow::{Guard, GuardSet, Order, execution};
 use ladder::scan::{Kind, Machine, Names, bit_of_word};
-use ladder::{Class, ElementKind, Program, Routine};
+use ladder::{ElementKind, Program, Routine};
 use logic::{Cancel, Datum, Name};
 use petgraph::graph::NodeIndex;
 use proof::{Gates, Netlist, Signal};
 use source::codes;
 
 use self::flow::{Power, Solved};
+use self::given::Given;
 use self::knowledge::Knowledge;
 use self::memory::Memories;
-use self::store::{Frees, Given, Store};
+use self::store::{Held, Store};
 use crate::compared;
 use crate::inputs::Inputs;
+use crate::ranges::Ranges;
 use crate::refusal::Refusal;
-use crate::value::{Value, applied};
+use crate::value::Value;
 
 /// So often a program is followed to find the values of its numbers.
 const MOST_PASSES: usize = 400;
@@ -48,8 +51,7 @@ pub struct Followed {
     /// What its inputs stand for.
     pub inputs: Inputs,
     names: Names,
-    values: BTreeMap<Name, Value>,
-    frees: Frees,
+    held: Held,
     /// What it writes.
     written: BTreeSet<Name>,
     /// What it declares and never looks at holds its initial value.
@@ -107,14 +109,33 @@ pub fn follow(
 ) -> Result<Followed, Refusal> {
     let machine = Machine::new(program);
     bounds.is_wanted()?;
-    let given = given(program, &machine);
+    let given = Given::of(program, &machine);
     bounds.is_wanted()?;
     let (orders, first_scan) = (orders(program, &machine)?, machine.first_scan());
     let looks_at_first_scan = reads(program, first_scan);
     let mut knowledge = Knowledge::default();
-    for (name, constant) in spec.into_iter().flat_map(compared::constants) {
+    let spec = spec.map(|spec| (spec, evolution::Machine::new(&spec.grafcet)));
+    bounds.is_wanted()?;
+    let looked_at = spec
+        .iter()
+        .flat_map(|(spec, machine)| compared::numbers(spec, machine.net()));
+    for (name, constant) in looked_at {
         let name = machine.names().resolved(&name, &|_| None).into_owned();
-        knowledge.compares(&name.into(), constant);
+        match constant {
+            Some(constant) => knowledge.compares(&name.into(), constant, false),
+            None => knowledge.computes_with(&name.into(), false),
+        }
+    }
+    let names = spec
+        .iter()
+        .flat_map(|(spec, machine)| compared::names(spec, machine.net()));
+    for name in names {
+        // Of what both look at, the one may look at bits and the other at the whole.
+        let name = machine.names().resolved(&name, &|_| None).into_owned();
+        match bit_of_word(&name) {
+            Some((word, _)) => knowledge.splits(&word.into(), false),
+            None => knowledge.looks_at_whole(&name.into()),
+        }
     }
     let mut work = 0;
     for _ in 0..MOST_PASSES {
@@ -143,14 +164,13 @@ pub fn follow(
         if work > bounds.work {
             return Err(Refusal::TooLarge);
         }
-        let (netlist, inputs, values, frees) = store.into_values();
+        let (netlist, inputs, held) = store.into_held();
         if !knowledge.take_learnt() {
             return Ok(Followed {
                 netlist,
                 inputs,
                 names: machine.names().clone(),
-                values,
-                frees,
+                held,
                 written: knowledge.written.into_keys().collect(),
                 untouched: untouched(program, &given),
                 addresses: addresses(program),
@@ -184,38 +204,6 @@ fn untouched(program: &Program, given: &Given) -> HashMap<Name, Datum> {
     let declared = program.declarations.iter().map(|it| &it.name);
     let initial = |name: &Name| given.initial.get(name).copied().unwrap_or_default();
     declared.map(|name| (name.clone(), initial(name))).collect()
-}
-
-fn given(program: &Program, machine: &Machine<'_>) -> Given {
-    let initial = machine.stored();
-    let initial: HashMap<Name, Datum> =
-        initial.map(|(name, value)| (name.clone(), value)).collect();
-    let constants = program.declarations.iter().filter_map(|declaration| {
-        let is_constant = declaration.class == Class::Constant;
-        let value = initial.get(&declaration.name).filter(|_| is_constant)?;
-        Some((declaration.name.clone(), *value))
-    });
-    let constants = constants.collect();
-    let mut kinds = HashMap::new();
-    let mut mixed = HashSet::new();
-    for (_, rung) in program.rungs() {
-        for (_, element) in rung.network.elements() {
-            let (name, kind) = match &element.kind {
-                ElementKind::Timer(it) => (&it.instance.name, format!("{:?}", it.kind)),
-                ElementKind::Counter(it) => (&it.instance.name, format!("{:?}", it.kind)),
-                _ => continue,
-            };
-            let known = kinds.entry(name.clone()).or_insert_with(|| kind.clone());
-            if *known != kind {
-                mixed.insert(name.clone());
-            }
-        }
-    }
-    Given {
-        initial,
-        constants,
-        mixed,
-    }
 }
 
 /// The orders that a scan follows, one after the other.
@@ -374,7 +362,7 @@ impl Followed {
     /// name or address.
     pub(crate) fn resolved(&self, name: &str) -> Name {
         let own = self.names.resolved(name, &|_| None);
-        if self.values.contains_key(&*own) {
+        if self.held.values.contains_key(&*own) {
             return (*own).into();
         }
         match self.addresses.get(&name.to_ascii_uppercase()) {
@@ -389,22 +377,28 @@ impl Followed {
         self.value(name).map_or(&[], Value::cases)
     }
 
+    /// The bits of a whole number that is followed by its bits, from the lowest to
+    /// the sign, when a scan has ended. None of all else.
+    pub fn bits(&self, name: &str) -> &[Signal] {
+        self.value(name).map_or(&[], Value::bits)
+    }
+
     /// The variables that are followed or free, by name.
     pub fn variables(&self) -> impl Iterator<Item = &Name> {
-        self.values.keys()
+        self.held.values.keys()
     }
 
     /// What a variable holds when the scan has ended, called by name or address.
     /// `None` if the ladder never looks at it.
     fn value(&self, name: &str) -> Option<&Value> {
-        self.values.get(&self.resolved(name))
+        self.held.values.get(&self.resolved(name))
     }
 
     /// The same of a bit of a word that is looked at as a whole.
     fn bit(&self, name: &str) -> Option<(&Value, u32)> {
         let name = self.resolved(name);
         let (word, bit) = bit_of_word(&name)?;
-        Some((self.values.get(word)?, bit))
+        Some((self.held.values.get(word)?, bit))
     }
 
     /// Whether the ladder mentions or declares a variable.
@@ -424,11 +418,11 @@ impl Followed {
             return Some(value.clone());
         }
         if let Some((word, bit)) = self.bit(name) {
-            let of = |word: &[Datum]| Datum::Bool(word[0].integer() >> bit & 1 == 1);
-            return match word {
-                Value::Unknown(word) => Some(Value::Unknown(bit_of_unknown(*word, bit))),
-                Value::Known(_) => applied(net, &[word], of).or(Some(Value::Unknown(0))),
-            };
+            return Some(match (word.rounded(net), word) {
+                (Some(word), _) => Value::bit(word.bit(bit)),
+                (None, Value::Unknown(word)) => Value::Unknown(bit_of_unknown(*word, bit)),
+                (None, _) => Value::Unknown(0),
+            });
         }
         let value = self.untouched.get(&self.resolved(name))?;
         Some(Value::constant(*value))
@@ -443,7 +437,12 @@ impl Followed {
     pub(crate) fn free(&self, text: &str, unknowns: &[usize]) -> Option<Signal> {
         let of_ladder = unknowns.iter().map(|it| word_of_unknown(*it));
         let key = (text.to_owned(), of_ladder.collect());
-        self.frees.get(&key).copied()
+        self.held.frees.get(&key).copied()
+    }
+
+    /// The ranges of numbers from the plant that are not followed.
+    pub(crate) fn ranges(&self) -> &Ranges {
+        &self.held.ranges
     }
 
     /// The declared type of a variable.

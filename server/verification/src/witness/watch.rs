@@ -3,13 +3,14 @@
 use std::collections::HashMap;
 
 use ladder::scan::Machine;
-use logic::Name;
+use logic::{Name, Relation};
 use proof::{Gates, Limits, Netlist, Signal, Sought, Trace, seek};
 
 use super::pairs::{Held, Pairs};
 use crate::inputs::{Inputs, Source};
 use crate::program::Followed;
 use crate::system::System;
+use crate::value::Value;
 
 /// Something that is looked for.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -55,7 +56,7 @@ impl<'w> Watch<'w> {
         pairs: &Pairs,
     ) -> Self {
         let inputs = system.evolved.inputs;
-        let is_given = |source: &Source| matches!(source, Source::Bit(_) | Source::Choice { .. });
+        let is_given = |source: &Source| source.is_given();
         let places = inputs.sources.iter().enumerate();
         let calm = places.filter(|(_, source)| is_given(source));
         let mut watch = Self {
@@ -84,7 +85,11 @@ impl<'w> Watch<'w> {
     fn watch(&mut self, name: &Name, held: &Held, machine: &Machine<'_>) {
         let net = &mut self.netlist;
         let value = self.followed.output(&held.variable, net);
-        let Some(now) = value.and_then(|it| it.when(net, |datum| held.is_on(datum))) else {
+        let now = value.and_then(|it| match held.value {
+            None => it.on(net),
+            Some(state) => it.compares(net, Relation::Equal, &Value::constant(state.into())),
+        });
+        let Some(now) = now else {
             return;
         };
         let initial = machine.value(&self.followed.resolved(&held.variable));

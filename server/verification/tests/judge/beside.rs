@@ -1,13 +1,15 @@
 //! A ladder's machine and its translation on the same inputs.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::ops::AddAssign;
+use std::sync::Arc;
 
 use ladder::scan::Machine;
 use ladder::{ElementKind, Program, TimerKind};
 use logic::{Datum, Name};
-use proof::{Netlist, Trace, replay};
+use proof::{Netlist, Signal, Touched, Trace, replay};
 use verification::inputs::Source;
-use verification::program::Followed;
+use verification::program::{Bounds, Followed, follow};
 
 use crate::random::Random;
 
@@ -19,6 +21,35 @@ pub struct Compared {
     pub changing: usize,
     /// Variables that depend on what is not followed.
     pub left_out: usize,
+}
+
+impl AddAssign for Compared {
+    fn add_assign(&mut self, other: Self) {
+        self.values += other.values;
+        self.variables += other.variables;
+        self.changing += other.changing;
+        self.left_out += other.left_out;
+    }
+}
+
+/// The program of a text without errors.
+pub fn program(text: &str) -> Arc<Program> {
+    let reading = ladder::read(text.as_bytes());
+    let mut found = reading.diagnostics.iter();
+    let error = found.find(|it| it.severity == source::Severity::Error);
+    assert!(error.is_none(), "{error:?}\n{text}");
+    reading.program
+}
+
+/// Compares the ladder of a text with its translation; shows the text if they
+/// differ.
+pub fn compare_text(text: &str, scans: usize, random: &mut Random) -> Compared {
+    let program = program(text);
+    let followed = follow(&program, None, &Bounds::default())
+        .unwrap_or_else(|refusal| panic!("{refusal}\n{text}"));
+    let compared = || compare(&program, &followed, scans, random);
+    std::panic::catch_unwind(std::panic::AssertUnwindSafe(compared))
+        .unwrap_or_else(|_| panic!("{text}"))
 }
 
 /// How the event of an instance follows from what the machine shows after the
@@ -66,7 +97,7 @@ pub fn compare(
                 !events.contains_key(of) || followed.netlist.inputs()[*at].name.ends_with(')')
             }
             Source::Opaque(_) | Source::Elapsed { .. } => true,
-            Source::Bit(_) | Source::Choice { .. } => false,
+            Source::Bit(_) | Source::Choice { .. } | Source::WordBit { .. } => false,
         })
         .collect();
     let (netlist, shown, left_out) = judged(followed, &free);
@@ -77,23 +108,14 @@ pub fn compare(
         for value in &mut now {
             *value ^= random.below(4) == 0;
         }
-        let mut numbers: BTreeMap<&Name, Datum> = followed
-            .inputs
-            .resting
-            .iter()
-            .map(|(name, value)| (name, *value))
-            .collect();
-        for (source, on) in sources.iter().zip(&now).rev() {
-            match source {
-                Source::Bit(name) => machine.set_input(name, *on),
-                Source::Choice { variable, value } if *on => {
-                    numbers.insert(variable, *value);
-                }
-                _ => {}
-            }
+        if random.below(3) == 0 {
+            // Words are seldom 0 by themselves.
+            let words = sources.iter().zip(&mut now);
+            let words = words.filter(|(it, _)| matches!(it, Source::WordBit { .. }));
+            words.for_each(|(_, value)| *value = false);
         }
-        for (name, value) in numbers {
-            machine.set_input(name, value);
+        for (name, value) in followed.inputs.values(&now) {
+            machine.set_input(&name, value);
         }
         machine.scan([0, 10, 10, 20, 50][random.below(5)]);
         let mut row = now.clone();
@@ -125,17 +147,11 @@ pub fn compare(
     for (scan, (row, seen)) in replayed.outputs.iter().zip(&seen).enumerate() {
         let mut outputs = row.iter();
         for ((name, values), expected) in shown.iter().zip(seen) {
-            let on: Vec<Datum> = values
-                .iter()
-                .zip(&mut outputs)
-                .filter(|(_, on)| **on)
-                .map(|(value, _)| *value)
-                .collect();
-            let keys: Vec<[u64; 2]> = on.iter().map(|it| it.key()).collect();
-            assert_eq!(
-                keys,
-                [expected.key()],
-                "{name} in scan {scan}: {on:?}, but {expected:?}"
+            let on: Vec<bool> = outputs.by_ref().take(values.outputs()).copied().collect();
+            let held = values.held(&on, *expected);
+            assert!(
+                held,
+                "{name} in scan {scan}: {values:?} {on:?}, but {expected:?}"
             );
             compared.values += 1;
         }
@@ -146,33 +162,77 @@ pub fn compare(
     compared
 }
 
-/// The netlist with an output for every value of the variables that can be
-/// judged, and these variables.
-fn judged(
-    followed: &Followed,
-    free: &BTreeSet<usize>,
-) -> (Netlist, Vec<(Name, Vec<Datum>)>, usize) {
+/// What outputs stand for a variable.
+#[derive(Debug)]
+pub enum Shown {
+    /// One for each value.
+    Values(Vec<Datum>),
+    /// One for each bit.
+    Bits(usize),
+}
+
+impl Shown {
+    /// What a translation holds, the values or the bits, as outputs of its netlist.
+    /// `None` if it is not followed or depends on what is not.
+    pub fn of(
+        name: &Name,
+        (cases, bits): (&[(Datum, Signal)], &[Signal]),
+        touched: &Touched,
+        netlist: &mut Netlist,
+    ) -> Option<Self> {
+        let signals = cases.iter().map(|(_, when)| when).chain(bits);
+        let signals: Vec<Signal> = signals.copied().collect();
+        if signals.is_empty() || signals.iter().any(|it| touched.contains(*it)) {
+            return None;
+        }
+        for (at, signal) in signals.iter().enumerate() {
+            netlist.output(format!("{name} {at}"), *signal);
+        }
+        let values = cases.iter().map(|(value, _)| *value);
+        Some(match bits.len() {
+            0 => Self::Values(values.collect()),
+            bits => Self::Bits(bits),
+        })
+    }
+
+    /// How many outputs it has.
+    pub fn outputs(&self) -> usize {
+        match self {
+            Self::Values(values) => values.len(),
+            Self::Bits(bits) => *bits,
+        }
+    }
+
+    /// Whether they show this value.
+    pub fn held(&self, on: &[bool], expected: Datum) -> bool {
+        match self {
+            Self::Values(values) => {
+                let held = values.iter().zip(on).filter(|(_, on)| **on);
+                let held: Vec<[u64; 2]> = held.map(|(value, _)| value.key()).collect();
+                held == [expected.key()]
+            }
+            Self::Bits(_) => {
+                let bits = on.iter().enumerate();
+                bits.fold(0, |word, (at, on)| word | i64::from(*on) << at) == expected.integer()
+                    && !matches!(expected, Datum::Real(_))
+            }
+        }
+    }
+}
+
+/// The netlist with outputs for the variables that can be judged, and these
+/// variables.
+fn judged(followed: &Followed, free: &BTreeSet<usize>) -> (Netlist, Vec<(Name, Shown)>, usize) {
     let mut netlist = followed.netlist.clone();
     let touched = netlist.touched_by(&free.iter().copied().collect::<Vec<_>>());
     let mut shown = Vec::new();
     let mut left_out = 0;
     for name in followed.variables() {
-        let cases = followed.cases(name);
-        if cases.is_empty() {
-            left_out += 1;
-            continue;
+        let held = (followed.cases(name), followed.bits(name));
+        match Shown::of(name, held, &touched, &mut netlist) {
+            Some(own) => shown.push((name.clone(), own)),
+            None => left_out += 1,
         }
-        if cases.iter().any(|(_, when)| touched.contains(*when)) {
-            left_out += 1;
-            continue;
-        }
-        for (value, when) in cases {
-            netlist.output(format!("{name}={value}"), *when);
-        }
-        shown.push((
-            name.clone(),
-            cases.iter().map(|(value, _)| *value).collect(),
-        ));
     }
     (netlist, shown, left_out)
 }

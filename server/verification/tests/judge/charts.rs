@@ -126,7 +126,7 @@ fn latch(evolved: &Evolved, machine: &mut Machine, bits: u64, elapsed: u64) -> V
             Source::Elapsed { step, time_ms } => {
                 machine.is_active(step) && machine.active_ms(step) + elapsed >= *time_ms
             }
-            Source::Event(_) | Source::Opaque(_) => on,
+            Source::WordBit { .. } | Source::Event(_) | Source::Opaque(_) => on,
         });
     }
     row

@@ -60,10 +60,7 @@ fn real_ladders_do_what_their_translations_do() {
         let Ok(one) = one else {
             panic!("{}", path.display())
         };
-        all.values += one.values;
-        all.variables += one.variables;
-        all.changing += one.changing;
-        all.left_out += one.left_out;
+        all += one;
     }
     println!("{taken} taken, {refused} refused, {all:?}");
     assert!(

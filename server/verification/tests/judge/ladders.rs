@@ -1,8 +1,6 @@
 //! Random ladders with everything that rungs can hold.
 
-use verification::program::{Bounds, follow};
-
-use crate::beside::{Compared, compare};
+use crate::beside::{Compared, compare_text};
 use crate::program::Program;
 use crate::random::Random;
 use crate::text;
@@ -16,17 +14,7 @@ fn random_ladders_do_what_their_translations_do() {
     let mut all = Compared::default();
     for _ in 0..PROGRAMS {
         let text = text::text(&Program::random(&mut random));
-        let program = ladder::read(text.as_bytes()).program;
-        let followed = follow(&program, None, &Bounds::default())
-            .unwrap_or_else(|refusal| panic!("{refusal}\n{text}"));
-        let one = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| {
-            compare(&program, &followed, SCANS, &mut random)
-        }));
-        let one = one.unwrap_or_else(|_| panic!("{text}"));
-        all.values += one.values;
-        all.variables += one.variables;
-        all.changing += one.changing;
-        all.left_out += one.left_out;
+        all += compare_text(&text, SCANS, &mut random);
     }
     println!("{all:?}");
     assert!(4 * all.changing > all.variables, "{all:?}");

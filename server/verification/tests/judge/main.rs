@@ -16,6 +16,8 @@ mod plain;
 mod specs;
 
 mod beside;
+mod boxes;
 mod charts;
 mod corpus;
 mod ladders;
+mod words;

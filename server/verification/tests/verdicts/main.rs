@@ -6,6 +6,7 @@ mod neutralization;
 mod product;
 mod real;
 mod timing;
+mod words;
 
 use std::sync::Arc;
 

@@ -284,6 +284,8 @@ pub fn left_free(source: &Source) -> String {
             )
         }
         Source::Opaque(text) => printable(text),
-        Source::Bit(name) | Source::Choice { variable: name, .. } => printable(name),
+        Source::Bit(name)
+        | Source::Choice { variable: name, .. }
+        | Source::WordBit { variable: name, .. } => printable(name),
     }
 }

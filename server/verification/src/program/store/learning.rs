@@ -3,9 +3,9 @@
 use logic::{Datum, Name};
 use proof::Signal;
 
-use super::{Kept, Store};
+use super::{Latched, Store};
+use crate::domain::Domain;
 use crate::program::Bounds;
-use crate::program::knowledge::Domain;
 use crate::refusal::Refusal;
 use crate::value::Value;
 
@@ -16,11 +16,9 @@ impl Store<'_> {
     pub(super) fn note_write(&mut self, name: &Name, value: &Value) {
         let is_new = !self.is_written(name);
         let initial = self.initially(name);
-        self.knowledge.writes(name, initial);
-        if self.bits_of.contains(name) {
-            self.knowledge.looks_at_whole(name);
-        }
-        self.knowledge_of_whole(name);
+        let is_followed = self.now.contains_key(name);
+        self.knowledge.writes(name, initial, is_followed);
+        self.is_looked_at_whole(name);
         // What is written in one stroke can be had: the rest is found by
         // following the scan.
         if is_new {
@@ -38,28 +36,38 @@ impl Store<'_> {
 
     /// Ends the scan: what variables hold is what the next one begins with.
     pub(in crate::program) fn end(&mut self, bounds: &Bounds) -> Result<(), Refusal> {
-        for Kept {
-            variable,
-            value,
-            latch,
-        } in std::mem::take(&mut self.kept)
-        {
-            let after = self.now.get(&variable);
-            let mut cases = after.map_or(&[][..], Value::cases).iter();
-            let next = cases.find(|(it, _)| it.key() == value.key());
-            let next = next.map_or(Signal::FALSE, |(_, when)| *when);
-            self.net.set_next(latch, next);
-            self.kept.push(Kept {
-                variable,
-                value,
-                latch,
-            });
-        }
         let written: Vec<Name> = self.knowledge.written.keys().cloned().collect();
+        for name in &written {
+            // Its bits are asked for one by one.
+            if let (Some(Domain::Word(_)), Some(value)) =
+                (self.knowledge.written.get(name), self.now.get(name))
+                && let Some(word) = value.word(&mut self.net)
+            {
+                self.now.insert(name.clone(), Value::Word(word));
+            }
+        }
+        for Latched {
+            variable,
+            kept,
+            latch,
+        } in &self.kept
+        {
+            let after = self.now.get(variable);
+            let next = after.map(|value| kept.next(value, &mut self.net));
+            self.net.set_next(*latch, next.unwrap_or(Signal::FALSE));
+        }
+        if self.knowledge.has_learnt_uses() {
+            return Ok(());
+        }
         for name in written {
             match self.now.get(&name).cloned() {
                 Some(Value::Unknown(_)) => self.knowledge.loses(&name),
-                Some(Value::Known(cases)) => self.note_values(&name, &cases, bounds)?,
+                Some(Value::Word(word)) => self.knowledge.widens(&name, &word),
+                // A word whose values have a fraction now.
+                Some(Value::Known(cases)) => match self.knowledge.written.get(&name) {
+                    Some(Domain::Word(_)) => self.knowledge.loses(&name),
+                    _ => self.note_values(&name, &cases, bounds)?,
+                },
                 None => {}
             }
         }

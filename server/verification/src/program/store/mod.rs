@@ -1,39 +1,43 @@
 //! The variables of a program while a scan is followed in signals.
 
+mod bitwise;
 mod learning;
+mod outside;
 mod terms;
+mod writing;
 
-use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
-use ladder::scan::{Kind, Names, bit_of_word};
+use ladder::scan::{Names, bit_of_word};
 use logic::{Datum, Name};
 use proof::{Gates, Netlist, Signal};
 
 use self::terms::is_nested;
-use super::knowledge::{Domain, Knowledge};
+use super::given::Given;
+use super::knowledge::Knowledge;
+use crate::domain::Kept;
 use crate::inputs::{Inputs, Source};
+use crate::ranges::Ranges;
 use crate::refusal::Refusal;
-use crate::value::{MOST_VALUES, Value, applied, chosen, gathered};
+use crate::value::Value;
+use crate::word::Word;
 
-/// A latch that stands for one value of a variable.
-struct Kept {
+/// A latch, and what it stands for.
+struct Latched {
     variable: Name,
-    value: Datum,
+    kept: Kept,
     latch: Signal,
 }
 
 /// What stands for texts that depend on numbers that are not followed.
 pub(crate) type Frees = HashMap<(String, Vec<usize>), Signal>;
 
-/// What the program says before anything is followed.
-#[derive(Debug, Default)]
-pub(super) struct Given {
-    /// Values before the first scan; all others are 0.
-    pub(super) initial: HashMap<Name, Datum>,
-    /// What is declared never to change.
-    pub(super) constants: HashMap<Name, Datum>,
-    /// Instances that timers or counters of different kinds share.
-    pub(super) mixed: HashSet<Name>,
+/// What variables hold when a scan has ended.
+#[derive(Clone, Debug)]
+pub(super) struct Held {
+    pub(super) values: BTreeMap<Name, Value>,
+    pub(super) frees: Frees,
+    pub(super) ranges: Ranges,
 }
 
 /// All variables at one point of a scan.
@@ -44,11 +48,14 @@ pub(super) struct Store<'k> {
     given: &'k Given,
     knowledge: &'k mut Knowledge,
     now: BTreeMap<Name, Value>,
-    kept: Vec<Kept>,
+    kept: Vec<Latched>,
     /// The variables whose unknown value is the same throughout a run of scans'
     /// inputs, by the number of the unknown.
     outside: HashMap<usize, Name>,
+    ranges: Ranges,
     unknowns: usize,
+    /// The numbers of words that were too large to be computed with.
+    large: HashMap<Word, usize>,
     bits_of: BTreeSet<Name>,
     /// Names for what is free and is no variable.
     frees: Frees,
@@ -67,7 +74,9 @@ impl<'k> Store<'k> {
             now: BTreeMap::new(),
             kept: Vec::new(),
             outside: HashMap::new(),
+            ranges: Ranges::default(),
             unknowns: 0,
+            large: HashMap::new(),
             bits_of: BTreeSet::new(),
             frees: HashMap::new(),
             tried: 0,
@@ -122,6 +131,8 @@ impl<'k> Store<'k> {
             Some((word, bit)) => {
                 let word: Name = word.into();
                 if self.knowledge.whole.contains(&word) {
+                    let is_followed = self.now.contains_key(&word);
+                    self.knowledge.splits(&word, is_followed);
                     return Key::BitOf(word, bit);
                 }
                 if self.now.contains_key(&word) {
@@ -146,73 +157,31 @@ impl<'k> Store<'k> {
 
     /// What is stored under a very name when the scan begins.
     fn begin(&mut self, name: &Name) -> Value {
-        let domain = self.knowledge.written.get(name).cloned();
-        let values = match domain {
-            Some(Domain::Values(values)) => values,
-            Some(Domain::Unknown) => return self.unknown(),
-            None => return self.given_from_outside(name),
+        let Some(domain) = self.knowledge.written.get(name) else {
+            return self.given_from_outside(name);
         };
-        let keep = |store: &mut Self, value: Datum, latch: Signal| {
-            let variable = name.clone();
-            let kept = Kept {
-                variable,
-                value,
-                latch,
-            };
-            store.kept.push(kept);
+        let Some((value, latches)) = domain.begin(&mut self.net, name) else {
+            return self.unknown();
         };
-        match values.as_slice() {
-            [value] => Value::constant(*value),
-            [Datum::Bool(initial), Datum::Bool(_)] => {
-                let latch = self.net.latch(name.clone(), *initial);
-                keep(self, true.into(), latch);
-                Value::bit(latch)
-            }
-            _ => {
-                let mut cases = Vec::new();
-                for (at, value) in values.iter().enumerate() {
-                    let latch = self.net.latch(format!("{name}={value}"), at == 0);
-                    keep(self, *value, latch);
-                    cases.push((*value, latch));
-                }
-                gathered(&mut self.net, cases)
-            }
-        }
+        let latches = latches.into_iter().map(|(kept, latch)| Latched {
+            variable: name.clone(),
+            kept,
+            latch,
+        });
+        self.kept.extend(latches);
+        value
     }
 
-    /// A variable that the program does not write.
-    fn given_from_outside(&mut self, name: &Name) -> Value {
-        let kind = self.names.kind(name);
-        if let Some(value) = self.given.constants.get(name) {
-            return Value::constant(*value);
-        }
-        let numbers = self.knowledge.numbers.get(name).cloned();
-        match numbers {
-            Some(Some(compared)) if kind != Some(Kind::Bool) => {
-                self.inputs.number(&mut self.net, name, kind, &compared)
-            }
-            Some(None) if kind != Some(Kind::Bool) => {
-                let value = self.unknown();
-                if let Value::Unknown(number) = value {
-                    self.outside.insert(number, name.clone());
-                }
-                value
-            }
-            _ => {
-                let on = self.inputs.bit(&mut self.net, name);
-                let cases = [(false, !on), (true, on)];
-                let cases =
-                    cases.map(|(is_on, when)| (self.names.converted(name, is_on.into()), when));
-                gathered(&mut self.net, cases.into())
-            }
-        }
+    /// Whether a name leads to one variable or bit of a word, whatever indices are.
+    fn is_direct(&self, name: &str) -> bool {
+        let word = bit_of_word(name).map_or(name, |(word, _)| word);
+        self.names.is_stored(word)
     }
 
     /// Whether a variable is on.
     pub(super) fn is_on(&mut self, name: &str) -> Result<Signal, Refusal> {
-        if name.contains('[') && !self.names.is_stored(name) {
-            let value = self.computed(name, false, |store, stored| store.read(name, stored))?;
-            return Ok(self.when(&value, name, Datum::is_on));
+        if name.contains('[') && !self.is_direct(name) {
+            return self.is_any_on(name);
         }
         if let Some(value) = Datum::constant(name)
             && !self.is_written(name)
@@ -221,24 +190,59 @@ impl<'k> Store<'k> {
         }
         match self.key(name) {
             Key::Whole(name) => {
+                self.is_looked_at_whole(&name);
                 let value = self.load(&name);
-                Ok(self.when(&value, &name, Datum::is_on))
+                Ok(self.on(&value, &name))
             }
             Key::BitOf(word, bit) => {
                 let value = self.load(&word);
-                let is_on = |value: Datum| value.integer() >> bit & 1 == 1;
-                Ok(self.when(&value, &format!("{word}.{bit}"), is_on))
+                Ok(match (value.rounded(&mut self.net), value) {
+                    (Some(word), _) => word.bit(bit),
+                    (None, Value::Unknown(number)) => {
+                        self.free(&format!("{word}.{bit}"), vec![number])
+                    }
+                    (None, _) => Signal::FALSE,
+                })
             }
         }
     }
 
-    /// When a value is one that `holds` picks; free under this text if the
-    /// value is not followed.
-    fn when(&mut self, value: &Value, text: &str, holds: impl Fn(Datum) -> bool) -> Signal {
-        match (value.when(&mut self.net, holds), value) {
+    /// Whether the variable is on that a name with variable indices leads to.
+    fn is_any_on(&mut self, name: &str) -> Result<Signal, Refusal> {
+        if is_nested(name) {
+            return Err(Refusal::NestedIndex(name.into()));
+        }
+        let Some(targets) = self.targets(name) else {
+            let unknown = self.unknown();
+            return Ok(self.on(&unknown, name));
+        };
+        let mut all = Vec::with_capacity(targets.len());
+        for (target, when) in targets {
+            // Some names are not found; they are what they are called.
+            let on = match self.is_direct(&target) || !target.contains('[') {
+                true => self.is_on(&target)?,
+                false => Signal::FALSE,
+            };
+            all.push(self.net.and(when, on));
+        }
+        Ok(self.net.any(&all))
+    }
+
+    /// The variables that a name with variable indices may lead to, and when. `None`
+    /// if an index is not followed.
+    fn targets(&mut self, name: &str) -> Option<Vec<(String, Signal)>> {
+        let targets = self.branch(false, |store, stored| {
+            store.names.resolved(name, stored).into_owned()
+        });
+        targets.ok()
+    }
+
+    /// When a value is on; free under this text if it is not followed.
+    fn on(&mut self, value: &Value, text: &str) -> Signal {
+        match (self.ranges.on(value, &mut self.net), value) {
             (Some(signal), _) => signal,
             (None, Value::Unknown(number)) => self.free(text, vec![*number]),
-            (None, Value::Known(_)) => Signal::FALSE,
+            (None, _) => Signal::FALSE,
         }
     }
 
@@ -273,73 +277,14 @@ impl<'k> Store<'k> {
         self.inputs.free(&mut self.net, &name, source)
     }
 
-    /// Gives a variable a value under a condition.
-    pub(super) fn write(&mut self, name: &str, value: &Value, when: Signal) -> Result<(), Refusal> {
-        if !name.contains('[') || self.names.is_stored(name) {
-            let key = self.key(name);
-            self.put(key, value, when);
-            return Ok(());
-        }
-        if is_nested(name) {
-            return Err(Refusal::NestedIndex(name.into()));
-        }
-        let targets = self.branch(false, |store, stored| {
-            store.names.resolved(name, stored).into_owned()
-        });
-        let Ok(targets) = targets else {
-            return Err(Refusal::UnknownTarget(name.into()));
-        };
-        for (target, also) in targets {
-            let when = self.net.and(when, also);
-            let key = self.key(&target);
-            self.put(key, value, when);
-        }
-        Ok(())
-    }
-
-    fn put(&mut self, key: Key, value: &Value, when: Signal) {
-        let (name, value) = match key {
-            Key::Whole(name) => {
-                let converted = match value {
-                    Value::Known(cases) => {
-                        let cases = cases.iter();
-                        let cases =
-                            cases.map(|(value, when)| (self.names.converted(&name, *value), *when));
-                        let cases = cases.collect();
-                        gathered(&mut self.net, cases)
-                    }
-                    unknown => unknown.clone(),
-                };
-                let bit = bit_of_word(&name).is_some();
-                let converted = match bit {
-                    true => Value::bit(self.when(&converted, &name, Datum::is_on)),
-                    false => converted,
-                };
-                (name, converted)
-            }
-            Key::BitOf(word, bit) => {
-                let before = self.load(&word);
-                let changed = applied(&mut self.net, &[&before, value], |both| {
-                    let rest = both[0].integer() & !(1 << bit);
-                    Datum::Integer(rest | i64::from(both[1].is_on()) << bit)
-                });
-                let changed = changed.unwrap_or_else(|| self.unknown());
-                (word, changed)
-            }
-        };
-        self.note_write(&name, &value);
-        let before = self.load(&name);
-        let after = chosen(&mut self.net, when, &value, &before);
-        let after = match after {
-            Some(after) if after.cases().len() <= MOST_VALUES => after,
-            _ => self.unknown(),
-        };
-        self.now.insert(name, after);
-    }
-
     /// What everything holds now.
-    pub(super) fn into_values(self) -> (Netlist, Inputs, BTreeMap<Name, Value>, Frees) {
-        (self.net, self.inputs, self.now, self.frees)
+    pub(super) fn into_held(self) -> (Netlist, Inputs, Held) {
+        let held = Held {
+            values: self.now,
+            frees: self.frees,
+            ranges: self.ranges,
+        };
+        (self.net, self.inputs, held)
     }
 }
 
