@@ -134,12 +134,21 @@ enum Skipping {
 /// Stands for a variable as it was at the start of the scan, in a condition in
 /// which the variable's own atom is what it was before the rung. No table gives
 /// this number to an atom.
-const AT_START: AtomId = AtomId(0);
+pub(crate) const AT_START: AtomId = AtomId(0);
 
 /// The variable as it was at the start of the scan, in the guard of one that
 /// its rung writes several times.
 pub(super) fn at_start() -> Function {
     Function::atom(AT_START)
+}
+
+/// The value of `atom` after these writes, over what it was before them.
+pub(crate) fn value_after(
+    atom: AtomId,
+    writes: &[Write],
+    budget: &Budget,
+) -> Result<Function, Stop> {
+    next_value(atom, writes, Skipping::Keeps, budget)
 }
 
 /// The value of `atom` after the scan: its writes, one after the other.

@@ -35,6 +35,7 @@ use std::sync::Arc;
 use ladder::{Program, flow};
 use logic::{AtomId, Atoms, Budget, Expr, Function, Name, Stop};
 
+pub(crate) use fold::{AT_START, value_after};
 pub(crate) use naming::{Names, Uses};
 use patch::Beyond;
 pub use power::{Powers, Walk, powers};

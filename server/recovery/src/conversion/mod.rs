@@ -12,10 +12,13 @@ mod base;
 mod branches;
 mod decisions;
 mod findings;
+mod forms;
 mod interface;
 mod naming;
+mod order;
 mod product;
 mod register;
+mod seen;
 mod sequence;
 mod sums;
 mod update;
@@ -30,6 +33,7 @@ pub(crate) use sums::Sums;
 pub use update::{Departure, Update, update};
 
 use crate::Analysis;
+use forms::Forms;
 use naming::Names;
 use wording::Wording;
 
@@ -37,12 +41,14 @@ use wording::Wording;
 pub fn spec(analysis: &Analysis, decisions: &[Decision], budget: &Budget) -> Spec {
     let accepted = Accepted::new(analysis, decisions);
     let mut names = Names::new(analysis);
-    let mut wording = Wording::new(analysis, budget);
+    let forms = Forms::new(analysis, &accepted, budget);
+    let mut wording = Wording::new(analysis, &forms.seen.atoms, budget);
     let mut chart = Chart::default();
 
     register::name_steps(analysis, &mut names, &mut wording);
     let sequences = sequence::plans(analysis, &accepted, &mut names, &mut wording, budget);
-    let memories = product::memories(analysis, &accepted, &mut names, &mut wording);
+    let memories = product::memories(analysis, &forms, &mut names, &mut wording);
+    let followers = product::followers(analysis, &forms, &mut names, &mut wording);
 
     // All steps are named by now, so that every receptivity can speak of them.
     register::draw(analysis, &accepted, &mut names, &wording, &mut chart);
@@ -51,8 +57,9 @@ pub fn spec(analysis: &Analysis, decisions: &[Decision], budget: &Budget) -> Spe
     }
     product::draw(&memories, analysis, &mut names, &wording, &mut chart);
     actions::add(
-        analysis, &sequences, &memories, &mut names, &wording, &mut chart,
+        analysis, &forms, &sequences, &memories, &mut names, &wording, &mut chart,
     );
+    product::draw_followers(&followers, &mut names, &mut chart);
 
     let mut grafcet = Grafcet {
         name: (!analysis.program.name.is_empty()).then(|| analysis.program.name.clone()),
