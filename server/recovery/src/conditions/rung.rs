@@ -31,8 +31,8 @@ pub(super) struct Solved {
     pub(super) opaque: HashSet<AtomId>,
     /// Every atom that it asks for, in the order of first asking.
     pub(super) atoms: Vec<AtomId>,
-    /// Whether it depends on the zone around it: several of its coils write
-    /// the same variable, so that the later see what the earlier did there.
+    /// Whether it depends on the zone around it: some of it sees what its
+    /// coils did there.
     pub(super) rewrites: bool,
 }
 
@@ -109,7 +109,7 @@ fn solved(network: &Network, zone: &Result<Function, Stop>, walk: &mut Walk<'_>)
     for (at, element) in network.elements() {
         for effect in effects(&element.kind, walk) {
             let event = event(at, effect, network, &solving, walk);
-            solving.add(&event, zone, walk);
+            solving.add(&event, network, zone, walk);
             found.events.push(event.into());
         }
         let power = || solving.powers.at(at).cloned();
@@ -140,7 +140,9 @@ fn event(
         .target
         .map(|target| solving.seen(target, &upstream.contacts))
         .filter(|seen| !seen.is_empty());
-    let effective = seen.map(|seen| {
+    let effective = seen.map(|own| {
+        let mut seen = solving.changed();
+        seen.extend(own);
         let powers = powers_seeing(&seen, network, walk);
         guard_of(&effect, &powers, at, walk)
     });

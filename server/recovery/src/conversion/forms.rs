@@ -68,7 +68,7 @@ impl<'a> Forms<'a> {
             },
         };
         let own: Vec<&Variable> = super::actions::own_variables(analysis)
-            .filter(|it| is_coil(it))
+            .filter(|it| is_coil(it) && choice.seen.is_own(it.atom))
             .collect();
         let mut exact: BTreeMap<AtomId, Function> = BTreeMap::new();
         let mut forms = BTreeMap::new();

@@ -25,11 +25,12 @@ mod update;
 mod wording;
 
 use grafcet::{Chart, Decision, Grafcet, Spec};
-use logic::Budget;
+use logic::{Budget, Name};
 
 pub use decisions::{Accept, Accepted, decide};
 pub use findings::spec_findings;
 pub(crate) use sums::Sums;
+pub use seen::Unsaid;
 pub use update::{Departure, Update, update};
 
 use crate::Analysis;
@@ -72,4 +73,20 @@ pub fn spec(analysis: &Analysis, decisions: &[Decision], budget: &Budget) -> Spe
         decisions: decisions.to_vec(),
         ..Spec::default()
     }
+}
+
+/// The variables that [`spec`] does not say exactly, each with the reason; in
+/// the order of the ladder. Those that a sequence decides are none of them: a
+/// sequence says what the expert has accepted.
+pub fn unsaid(
+    analysis: &Analysis,
+    decisions: &[Decision],
+    budget: &Budget,
+) -> Vec<(Name, Unsaid)> {
+    let accepted = Accepted::new(analysis, decisions);
+    let forms = Forms::new(analysis, &accepted, budget);
+    let names = actions::own_variables(analysis);
+    names
+        .filter_map(|it| Some((it.name.clone(), forms.unsaid.get(&it.atom)?.clone())))
+        .collect()
 }

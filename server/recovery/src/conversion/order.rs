@@ -4,7 +4,7 @@ use std::cell::RefCell;
 use std::collections::HashMap;
 use std::rc::Rc;
 
-use ladder::{ElementKind, Program, flow};
+use ladder::{ContactKind, ElementKind, Program, flow};
 use logic::Name;
 
 /// A moment of the scan: which visit to a rung, and which element of it.
@@ -40,8 +40,9 @@ struct Visit {
     rank: usize,
 }
 
-/// The elements of a rung that read a variable, ascending.
-type Reads = Rc<HashMap<Name, Vec<usize>>>;
+/// The elements of a rung that read a variable, ascending, and whether one of
+/// them is a contact that sees edges of it.
+type Reads = Rc<HashMap<Name, (Vec<usize>, bool)>>;
 
 /// Something that is solved, and what decides whether it is.
 pub(super) struct Reader {
@@ -159,26 +160,39 @@ impl<'p> Order<'p> {
         }
     }
 
-    fn reads(&self, (routine, rung): Rung) -> HashMap<Name, Vec<usize>> {
-        let mut reads: HashMap<Name, Vec<usize>> = HashMap::new();
+    fn reads(&self, (routine, rung): Rung) -> HashMap<Name, (Vec<usize>, bool)> {
+        let mut reads: HashMap<Name, (Vec<usize>, bool)> = HashMap::new();
         let network = &self.program.routines[routine].rungs[rung].network;
         for (at, element) in network.elements() {
+            let sees_edge = match &element.kind {
+                ElementKind::Contact(contact) => {
+                    matches!(contact.kind, ContactKind::Rising | ContactKind::Falling)
+                }
+                _ => false,
+            };
             for read in element.kind.reads() {
-                reads.entry(read.name.clone()).or_default().push(at.index());
+                let known = reads.entry(read.name.clone()).or_default();
+                known.0.push(at.index());
+                known.1 |= sees_edge;
             }
         }
         reads
     }
 
     /// Where `reader` looks at a variable; where it stands itself if no
-    /// element before it does.
+    /// element before it does. Of contacts on one rung that see values of
+    /// several moments the conditions speak as the first does; but of edges
+    /// each speaks for itself.
     pub(super) fn readings(&self, name: &Name, reader: &Reader) -> Vec<Place> {
         let own = std::iter::once((reader.place, &reader.reads));
         let steering = reader.steering.iter().map(|(place, reads)| (*place, reads));
         let mut found = Vec::new();
         for ((rank, element), reads) in own.chain(steering) {
-            let at = reads.get(name).map_or(&[][..], Vec::as_slice);
-            let before = at.iter().take_while(|at| **at < element);
+            let Some((at, sees_edge)) = reads.get(name) else {
+                continue;
+            };
+            let most = if *sees_edge { usize::MAX } else { 1 };
+            let before = at.iter().take_while(|at| **at < element).take(most);
             found.extend(before.map(|at| (rank, *at)));
         }
         if found.is_empty() {

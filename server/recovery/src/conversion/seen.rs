@@ -77,7 +77,15 @@ pub(super) struct Seen<'a> {
 
 impl<'a> Seen<'a> {
     pub(super) fn new(analysis: &'a Analysis, budget: &Budget) -> Self {
-        let variables: Vec<&Variable> = super::actions::own_variables(analysis).collect();
+        let order = Order::new(&analysis.program);
+        // What only rungs write that no scan solves is an input.
+        let is_written = |it: &&Variable| {
+            let mut writes = it.writes.iter();
+            writes.any(|write| order.of(write.place.rung()).is_some())
+        };
+        let variables: Vec<&Variable> = super::actions::own_variables(analysis)
+            .filter(is_written)
+            .collect();
         let machine = Machine::new(&analysis.program);
         let mut atoms = analysis.conditions.atoms.clone();
         let before: HashMap<AtomId, AtomId> = variables
@@ -97,7 +105,7 @@ impl<'a> Seen<'a> {
             writes: HashMap::new(),
             between: HashMap::new(),
             machine,
-            order: Order::new(&analysis.program),
+            order,
             budget: budget.clone(),
         };
         seen.follow(&variables);

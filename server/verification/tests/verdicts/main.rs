@@ -1,5 +1,13 @@
 //! Verdicts about ladders and their specs.
 
+#[path = "../../../ladder/tests/against_c/program.rs"]
+#[allow(dead_code)]
+mod program;
+#[path = "../../../ladder/tests/against_c/random.rs"]
+mod random;
+#[path = "../../../ladder/tests/against_c/text.rs"]
+mod random_text;
+
 mod corpus;
 mod limits;
 mod neutralization;
