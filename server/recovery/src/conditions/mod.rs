@@ -40,6 +40,7 @@ pub(crate) use naming::{Names, Uses};
 use patch::Beyond;
 pub use power::{Powers, Walk, powers};
 use sequence::{Earlier, Rungs, Solution};
+pub(crate) use solving::{changing, leading_to, sees_several_moments};
 use source::Diagnostic;
 pub use timers::TimerLaw;
 pub use variables::Variables;

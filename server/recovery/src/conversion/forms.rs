@@ -371,6 +371,7 @@ impl Choice<'_> {
             }
             right = right.substitute(*of, next, budget)?;
         }
+        let care = self.exclusive(own, new_own, &right, &becoming)?;
         let mut moments = [read.clone(), read.clone(), read.clone(), read];
         for (here, before, next) in paths {
             let (some, more) = (fresh.atom(), fresh.atom());
@@ -408,11 +409,45 @@ impl Choice<'_> {
             let wrong = some.and_not(&right, budget)?;
             let undone = some.and(&back, budget)?;
             let missed = right.and_not(&first, budget)?.and_not(&last, budget)?;
-            if !(wrong.is_false() && undone.is_false() && missed.is_false()) {
-                return Ok(false);
+            let care = bound(&care, was, &new)?;
+            for fault in [wrong, undone, missed] {
+                if fault.meets(&care, budget)? {
+                    return Ok(false);
+                }
             }
         }
         Ok(true)
+    }
+
+    /// What is so before every scan: that a memory is not on together with
+    /// another beside which it is never switched on, as where they interlock
+    /// each other. `right` is what it becomes, `becoming` what the others do.
+    fn exclusive(
+        &self,
+        own: AtomId,
+        new_own: AtomId,
+        right: &Function,
+        becoming: &[(AtomId, Function)],
+    ) -> Result<Function, Stop> {
+        let budget = &self.budget;
+        let mut care = Function::constant(true);
+        for (of, next) in becoming {
+            let Some(before) = self.seen.before(*of) else {
+                continue;
+            };
+            let both_before = Function::atom(own).and(&Function::atom(before), budget)?;
+            let mut next = next.substitute(new_own, right, budget)?;
+            if let Some(before) = self.seen.before(own) {
+                next = next.substitute(before, &Function::atom(own), budget)?;
+            }
+            let both = right.and(&next, budget)?;
+            let never = both.and_not(&both_before, budget)?.is_false();
+            let begin = self.seen.is_initial(own) && self.seen.is_initial(*of);
+            if never && !begin {
+                care = care.and_not(&both_before, budget)?;
+            }
+        }
+        Ok(care)
     }
 }
 

@@ -1,11 +1,12 @@
 //! When in a scan the rungs are solved, and who writes what there.
 
-use std::cell::RefCell;
-use std::collections::HashMap;
-use std::rc::Rc;
+use std::collections::{BTreeMap, HashMap};
 
 use ladder::{ContactKind, ElementKind, Program, flow};
 use logic::Name;
+use petgraph::graph::NodeIndex;
+
+use crate::conditions::{changing, leading_to, sees_several_moments};
 
 /// A moment of the scan: which visit to a rung, and which element of it.
 pub(super) type Place = (usize, usize);
@@ -29,8 +30,6 @@ pub(super) struct Order<'p> {
     wholes: HashMap<Name, Vec<Option<Place>>>,
     /// Where a part of it is written.
     parts: HashMap<Name, Vec<Option<Place>>>,
-    /// The reads of the rung that was last asked about.
-    last: RefCell<Option<(Rung, Reads)>>,
 }
 
 #[derive(Clone, Copy)]
@@ -40,17 +39,15 @@ struct Visit {
     rank: usize,
 }
 
-/// The elements of a rung that read a variable, ascending, and whether one of
-/// them is a contact that sees edges of it.
-type Reads = Rc<HashMap<Name, (Vec<usize>, bool)>>;
+/// What reads a variable on the way to an element.
+type Reads = HashMap<Name, Vec<usize>>;
 
 /// Something that is solved, and what decides whether it is.
 pub(super) struct Reader {
     place: Place,
-    reads: Reads,
-    /// The elements that decide whether it is solved, with what their rungs
-    /// read.
-    steering: Vec<(Place, Reads)>,
+    /// It and the elements that decide whether it is solved: when they are, and
+    /// what is read on the way to them.
+    reads: Vec<(usize, Reads)>,
 }
 
 impl<'p> Order<'p> {
@@ -62,7 +59,6 @@ impl<'p> Order<'p> {
             writings: HashMap::new(),
             wholes: HashMap::new(),
             parts: HashMap::new(),
-            last: RefCell::new(None),
         };
         let mut rank = 0;
         for number in 0..=order.execution.definitions.len() {
@@ -129,7 +125,7 @@ impl<'p> Order<'p> {
 
     /// What is solved at `place` of a rung that is solved once.
     pub(super) fn reader(&self, place: Place, rung: Rung) -> Reader {
-        let mut steering = Vec::new();
+        let mut reads = vec![(place.0, self.reads(rung, place.1))];
         if let Some(Some(visit)) = self.visits.get(&rung) {
             let order = self.visits_of(visit.order);
             for guard in order.guards(order.visits[visit.at].guards).take(DEEPEST) {
@@ -140,60 +136,45 @@ impl<'p> Order<'p> {
                 };
                 let at = &order.visits[by.visit];
                 let rank = visit.rank - visit.at + by.visit;
-                let reads = Rc::new(self.reads((at.routine, at.rung)));
-                steering.push(((rank, by.element.index()), reads));
+                let there = self.reads((at.routine, at.rung), by.element.index());
+                reads.push((rank, there));
             }
         }
-        let mut last = self.last.borrow_mut();
-        let reads = match &*last {
-            Some((known, reads)) if *known == rung => Rc::clone(reads),
-            _ => {
-                let reads = Rc::new(self.reads(rung));
-                *last = Some((rung, Rc::clone(&reads)));
-                reads
-            }
-        };
-        Reader {
-            place,
-            reads,
-            steering,
-        }
+        Reader { place, reads }
     }
 
-    fn reads(&self, (routine, rung): Rung) -> HashMap<Name, (Vec<usize>, bool)> {
-        let mut reads: HashMap<Name, (Vec<usize>, bool)> = HashMap::new();
+    /// What is read on the way to an element. Where contacts on it see one
+    /// variable at different moments its conditions speak of what was before
+    /// the rung, which is the place of the rail.
+    fn reads(&self, (routine, rung): Rung, element: usize) -> Reads {
+        let mut reads = Reads::new();
         let network = &self.program.routines[routine].rungs[rung].network;
-        for (at, element) in network.elements() {
-            let sees_edge = match &element.kind {
-                ElementKind::Contact(contact) => {
-                    matches!(contact.kind, ContactKind::Rising | ContactKind::Falling)
-                }
-                _ => false,
-            };
-            for read in element.kind.reads() {
-                let known = reads.entry(read.name.clone()).or_default();
-                known.0.push(at.index());
-                known.1 |= sees_edge;
+        let element = NodeIndex::new(element);
+        let is_since = sees_several_moments(network, element);
+        let changing = match is_since {
+            true => changing(network),
+            false => BTreeMap::new(),
+        };
+        for at in leading_to(network, element) {
+            let kind = &network.element(at).kind;
+            let sees_edge = matches!(kind, ElementKind::Contact(contact)
+                if matches!(contact.kind, ContactKind::Rising | ContactKind::Falling));
+            for read in kind.reads() {
+                let is_since = !sees_edge && changing.contains_key(&read.name);
+                let at = if is_since { 0 } else { at.index() };
+                reads.entry(read.name.clone()).or_default().push(at);
             }
         }
         reads
     }
 
-    /// Where `reader` looks at a variable; where it stands itself if no
-    /// element before it does. Of contacts on one rung that see values of
-    /// several moments the conditions speak as the first does; but of edges
-    /// each speaks for itself.
+    /// Where `reader` looks at a variable; where it stands itself if nothing
+    /// on the way to it does.
     pub(super) fn readings(&self, name: &Name, reader: &Reader) -> Vec<Place> {
-        let own = std::iter::once((reader.place, &reader.reads));
-        let steering = reader.steering.iter().map(|(place, reads)| (*place, reads));
         let mut found = Vec::new();
-        for ((rank, element), reads) in own.chain(steering) {
-            let Some((at, sees_edge)) = reads.get(name) else {
-                continue;
-            };
-            let most = if *sees_edge { usize::MAX } else { 1 };
-            let before = at.iter().take_while(|at| **at < element).take(most);
-            found.extend(before.map(|at| (rank, *at)));
+        for (rank, reads) in &reader.reads {
+            let at = reads.get(name).map_or(&[][..], Vec::as_slice);
+            found.extend(at.iter().map(|at| (*rank, *at)));
         }
         if found.is_empty() {
             found.push(reader.place);
