@@ -5,7 +5,7 @@ use logic::{AtomId, Expr, Function, Name};
 
 use super::forms::{Form, Forms};
 use super::naming::Names;
-use super::product::Memory;
+use super::product::Product;
 use super::sequence::Plan;
 use super::wording::Wording;
 use crate::Analysis;
@@ -28,16 +28,15 @@ pub(super) fn own_variables(analysis: &Analysis) -> impl Iterator<Item = &Variab
 /// Adds the actions of all outputs to `chart`.
 pub(super) fn add(
     analysis: &Analysis,
-    forms: &Forms<'_>,
     sequences: &[Plan],
-    memories: &[Memory],
+    product: &Product<'_>,
     names: &mut Names,
     wording: &Wording<'_>,
     chart: &mut Chart,
 ) {
     let mut actions = Actions {
         analysis,
-        forms,
+        forms: product.forms,
         sequences,
         wording,
         names,
@@ -48,12 +47,13 @@ pub(super) fn add(
     for variable in own_variables(analysis) {
         let atom = variable.atom;
         let mut stored = analysis.states().stored.iter();
-        let is_exact = matches!(forms.of(atom), Some(Form::Steps(_) | Form::Action(_)));
+        let is_exact = matches!(
+            product.forms.of(atom),
+            Some(Form::Steps(_) | Form::Action(_))
+        );
         if let Some(stored) = stored.find(|it| it.atom == atom && !is_exact) {
             actions.add_stored(stored);
-        } else if memories.iter().any(|memory| memory.atom == atom)
-            || !wording.steps_of(atom).is_empty()
-        {
+        } else if !wording.steps_of(atom).is_empty() {
             actions.add_state(variable);
         } else {
             conditional.push(variable);
@@ -61,6 +61,10 @@ pub(super) fn add(
     }
     for variable in conditional {
         actions.add_conditional(variable);
+    }
+    if let Some(first) = &product.first {
+        let always = actions.always();
+        first.draw(always, actions.names, actions.chart);
     }
 }
 

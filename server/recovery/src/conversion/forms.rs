@@ -13,7 +13,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use logic::{Atom, AtomId, Atoms, Budget, Function, Name, Stop};
+use logic::{Atom, AtomId, Atoms, Budget, Function, Stop};
 
 use super::decisions::Accepted;
 use super::seen::{Seen, Unsaid};
@@ -103,9 +103,16 @@ impl<'a> Forms<'a> {
             }
         }
         for (atom, form) in choice.settled(exact) {
-            if matches!(form, Form::Action(_)) && choice.seen.is_initial(atom) {
-                unsaid.insert(atom, Unsaid::Initial(choice.name(atom)));
-            }
+            let form = match form {
+                Form::Action(next) => match choice.begun(&next, atom) {
+                    Ok(next) => Form::Action(next),
+                    Err(_) => {
+                        unsaid.insert(atom, Unsaid::TooLarge);
+                        Form::Rough
+                    }
+                },
+                form => form,
+            };
             forms.insert(atom, form);
         }
         let mut forms = Self {
@@ -163,14 +170,16 @@ impl<'a> Forms<'a> {
                 }
             }
         }
-        for of in &self.followed {
-            if self.seen.is_initial(*of)
-                && let Some(variable) = analysis.conditions.variable(*of)
-            {
-                let why = Unsaid::Initial(variable.name.clone());
-                self.unsaid.entry(*of).or_insert(why);
-            }
-        }
+    }
+
+    /// Whether something has to know which scan is the first.
+    pub(super) fn knows_first(&self) -> bool {
+        let mut forms = self.forms.values();
+        let knows = |form: &Form| match form {
+            Form::Action(next) => next.depends_on(self.seen.first),
+            Form::Steps(_) | Form::Rough => false,
+        };
+        forms.any(knows) || self.followed.iter().any(|it| self.seen.is_initial(*it))
     }
 }
 
@@ -190,11 +199,15 @@ struct Choice<'a> {
 }
 
 impl Choice<'_> {
-    fn name(&self, atom: AtomId) -> Name {
-        match self.seen.atoms.atom(atom) {
-            Atom::Variable(name) => name.clone(),
-            other => other.to_string().into(),
+    /// What an action says that reads its own last value: before the first scan
+    /// nothing is published.
+    fn begun(&self, next: &Function, own: AtomId) -> Result<Function, Stop> {
+        if !self.seen.is_initial(own) {
+            return Ok(next.clone());
         }
+        let first = Function::atom(self.seen.first);
+        let last = Function::atom(own).or(&first, &self.budget)?;
+        next.substitute(own, &last, &self.budget)
     }
 
     /// Whether a sequence decides what the function is: a state that belongs
@@ -279,7 +292,7 @@ impl Choice<'_> {
             }
             let said = self.receptive(&exact[&atom], atom);
             let said = said.filter(|said| self.holds(atom, said) == Ok(true));
-            match said.and_then(|said| self.as_read(&said).ok()) {
+            match said.and_then(|said| self.as_read(&said)) {
                 Some(said) => {
                     for read in said.support() {
                         readers.entry(*read).or_default().push(atom);
@@ -293,7 +306,9 @@ impl Choice<'_> {
             }
         }
         let form = |(atom, next): (AtomId, Function)| {
-            let steps = receptive.remove(&atom).filter(|_| self.steps.contains(&atom));
+            let steps = receptive
+                .remove(&atom)
+                .filter(|_| self.steps.contains(&atom));
             (atom, steps.map_or(Form::Action(next), Form::Steps))
         };
         exact.into_iter().map(form).collect()
@@ -308,15 +323,20 @@ impl Choice<'_> {
     }
 
     /// The condition as it reads in a receptivity: outputs there are what the
-    /// last scan left, and steps what they are.
-    fn as_read(&self, said: &Function) -> Result<Function, Stop> {
+    /// last scan left, and steps what they are. None if that is too large, or
+    /// was before the first scan what nobody had published.
+    fn as_read(&self, said: &Function) -> Option<Function> {
         let mut read = said.clone();
         for &atom in said.support() {
             if let Some(of) = self.seen.of_before(atom) {
-                read = read.substitute(atom, &Function::atom(of), &self.budget)?;
+                if self.seen.is_initial(of) && !self.steps.contains(&of) {
+                    return None;
+                }
+                let put = read.substitute(atom, &Function::atom(of), &self.budget);
+                read = put.ok()?;
             }
         }
-        Ok(read)
+        Some(read)
     }
 
     /// Whether a memory of the condition `said` changes as its rung has it,

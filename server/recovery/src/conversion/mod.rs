@@ -29,13 +29,14 @@ use logic::{Budget, Name};
 
 pub use decisions::{Accept, Accepted, decide};
 pub use findings::spec_findings;
-pub(crate) use sums::Sums;
 pub use seen::Unsaid;
+pub(crate) use sums::Sums;
 pub use update::{Departure, Update, update};
 
 use crate::Analysis;
 use forms::Forms;
 use naming::Names;
+use product::Product;
 use wording::Wording;
 
 /// The spec that the ladder and the decisions give.
@@ -48,19 +49,18 @@ pub fn spec(analysis: &Analysis, decisions: &[Decision], budget: &Budget) -> Spe
 
     register::name_steps(analysis, &mut names, &mut wording);
     let sequences = sequence::plans(analysis, &accepted, &mut names, &mut wording, budget);
-    let memories = product::memories(analysis, &forms, &mut names, &mut wording);
-    let followers = product::followers(analysis, &forms, &mut names, &mut wording);
+    let product = Product::new(analysis, &forms, &mut names, &mut wording);
 
     // All steps are named by now, so that every receptivity can speak of them.
     register::draw(analysis, &accepted, &mut names, &wording, &mut chart);
     for plan in &sequences {
         plan.draw(analysis, &mut names, &wording, &mut chart);
     }
-    product::draw(&memories, analysis, &mut names, &wording, &mut chart);
+    product.draw(analysis, &mut names, &wording, &mut chart);
     actions::add(
-        analysis, &forms, &sequences, &memories, &mut names, &wording, &mut chart,
+        analysis, &sequences, &product, &mut names, &wording, &mut chart,
     );
-    product::draw_followers(&followers, &mut names, &mut chart);
+    product.draw_followers(&mut names, &mut chart);
 
     let mut grafcet = Grafcet {
         name: (!analysis.program.name.is_empty()).then(|| analysis.program.name.clone()),
@@ -78,11 +78,7 @@ pub fn spec(analysis: &Analysis, decisions: &[Decision], budget: &Budget) -> Spe
 /// The variables that [`spec`] does not say exactly, each with the reason; in
 /// the order of the ladder. Those that a sequence decides are none of them: a
 /// sequence says what the expert has accepted.
-pub fn unsaid(
-    analysis: &Analysis,
-    decisions: &[Decision],
-    budget: &Budget,
-) -> Vec<(Name, Unsaid)> {
+pub fn unsaid(analysis: &Analysis, decisions: &[Decision], budget: &Budget) -> Vec<(Name, Unsaid)> {
     let accepted = Accepted::new(analysis, decisions);
     let forms = Forms::new(analysis, &accepted, budget);
     let names = actions::own_variables(analysis);

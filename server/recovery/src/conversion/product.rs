@@ -1,7 +1,11 @@
-//! The product form: every memory a partial grafcet of two steps.
+//! The product form: what no sequence decides, as its rungs have it.
+//!
+//! Every memory is a partial grafcet of two steps where it can be (see
+//! [`forms`](super::forms)); two more follow each variable whose last value an
+//! action reads.
 
-use grafcet::{Chart, Step, Transition};
-use logic::{AtomId, Expr, Function, Name};
+use grafcet::{Action, Chart, Step, Transition};
+use logic::{Expr, Function, Name};
 
 use super::forms::{Form, Forms};
 use super::naming::Names;
@@ -9,9 +13,8 @@ use super::wording::Wording;
 use crate::Analysis;
 
 /// A variable that keeps its value, with its two steps.
-pub(super) struct Memory {
-    pub(super) variable: Name,
-    pub(super) atom: AtomId,
+struct Memory {
+    variable: Name,
     off: Name,
     on: Name,
     /// Whether it is on before the first scan.
@@ -20,9 +23,35 @@ pub(super) struct Memory {
     deactivation: Function,
 }
 
+/// What is drawn of the product form.
+pub(super) struct Product<'f> {
+    pub(super) forms: &'f Forms<'f>,
+    memories: Vec<Memory>,
+    followers: Vec<Follower>,
+    /// What tells the first scan from the others, if something has to know.
+    pub(super) first: Option<First>,
+}
+
+impl<'f> Product<'f> {
+    /// All of it with its steps named.
+    pub(super) fn new(
+        analysis: &Analysis,
+        forms: &'f Forms<'f>,
+        names: &mut Names,
+        wording: &mut Wording<'_>,
+    ) -> Self {
+        Self {
+            forms,
+            memories: memories(analysis, forms, names, wording),
+            followers: followers(analysis, forms, names, wording),
+            first: first(forms, names, wording),
+        }
+    }
+}
+
 /// The memories that no accepted succession ties to a sequence and that are
-/// said by two steps, with their steps named.
-pub(super) fn memories(
+/// said by two steps.
+fn memories(
     analysis: &Analysis,
     forms: &Forms<'_>,
     names: &mut Names,
@@ -46,7 +75,6 @@ pub(super) fn memories(
             is_on: forms.seen.is_initial(variable.atom),
             turns_on: next.restrict(variable.atom, false),
             deactivation: next.restrict(variable.atom, true).not(),
-            atom: variable.atom,
         };
         wording.stands_for(variable.atom, memory.on.clone());
         found.push(memory);
@@ -54,53 +82,100 @@ pub(super) fn memories(
     found
 }
 
-/// Draws the memories. A change that can never happen has no transition.
-pub(super) fn draw(
-    memories: &[Memory],
-    analysis: &Analysis,
-    names: &mut Names,
-    wording: &Wording<'_>,
-    chart: &mut Chart,
-) {
-    for memory in memories {
-        chart.steps.push(Step {
-            initial: !memory.is_on,
-            ..Step::new(memory.off.clone())
-        });
-        chart.steps.push(Step {
-            initial: memory.is_on,
-            state: Some(memory.variable.clone()),
-            comment: analysis.description(&memory.variable),
-            ..Step::new(memory.on.clone())
-        });
-        let (off, on) = (&memory.off, &memory.on);
-        for (word, from, to, condition) in [
-            ("starts", off, on, &memory.turns_on),
-            ("ends", on, off, &memory.deactivation),
-        ] {
-            if condition.is_false() {
-                continue;
+impl Product<'_> {
+    /// Draws the memories. A change that can never happen has no transition.
+    pub(super) fn draw(
+        &self,
+        analysis: &Analysis,
+        names: &mut Names,
+        wording: &Wording<'_>,
+        chart: &mut Chart,
+    ) {
+        for memory in &self.memories {
+            chart.steps.push(Step {
+                initial: !memory.is_on,
+                ..Step::new(memory.off.clone())
+            });
+            chart.steps.push(Step {
+                initial: memory.is_on,
+                state: Some(memory.variable.clone()),
+                comment: analysis.description(&memory.variable),
+                ..Step::new(memory.on.clone())
+            });
+            let (off, on) = (&memory.off, &memory.on);
+            for (word, from, to, condition) in [
+                ("starts", off, on, &memory.turns_on),
+                ("ends", on, off, &memory.deactivation),
+            ] {
+                if condition.is_false() {
+                    continue;
+                }
+                let name = names.transition(&format!("{}_{word}", memory.variable));
+                let receptivity = wording.say_or_name(condition, &name);
+                chart.transitions.push(Transition::new(
+                    name,
+                    from.clone(),
+                    to.clone(),
+                    receptivity,
+                ));
             }
-            let name = names.transition(&format!("{}_{word}", memory.variable));
-            let receptivity = wording.say_or_name(condition, &name);
-            chart
-                .transitions
-                .push(Transition::new(name, from.clone(), to.clone(), receptivity));
+        }
+    }
+
+    /// Draws the followers. Their receptivities read the variable as the last
+    /// scan has published it.
+    pub(super) fn draw_followers(&self, names: &mut Names, chart: &mut Chart) {
+        let begun = self.first.as_ref().map(|first| &first.begun);
+        for follower in &self.followers {
+            let (off, on) = (&follower.off, &follower.on);
+            chart.steps.push(Step {
+                initial: !follower.is_on,
+                ..Step::new(off.clone())
+            });
+            let comment = format!(
+                "{} as the last scan left it: rungs above its own see that",
+                follower.variable
+            );
+            chart.steps.push(Step {
+                initial: follower.is_on,
+                comment: Some(comment.into()),
+                ..Step::new(on.clone())
+            });
+            let followed = Expr::variable(follower.variable.clone());
+            let gone = match begun.filter(|_| follower.is_on) {
+                Some(begun) => {
+                    let begun = Expr::variable(begun.clone());
+                    Expr::And(vec![followed.clone().complement(), begun])
+                }
+                None => followed.clone().complement(),
+            };
+            for (word, from, to, receptivity) in
+                [("starts", off, on, followed), ("ends", on, off, gone)]
+            {
+                let name = names.transition(&format!("{}_was_{word}", follower.variable));
+                chart.transitions.push(Transition::new(
+                    name,
+                    from.clone(),
+                    to.clone(),
+                    receptivity,
+                ));
+            }
         }
     }
 }
 
 /// Two steps that follow a variable one scan late: what rungs see that stand
 /// above those that write it.
-pub(super) struct Follower {
+struct Follower {
     variable: Name,
     off: Name,
     on: Name,
+    /// Whether it is on before the first scan.
+    is_on: bool,
 }
 
-/// The followers of all variables whose last value actions read, with their
-/// steps named.
-pub(super) fn followers(
+/// The followers of all variables whose last value actions read.
+fn followers(
     analysis: &Analysis,
     forms: &Forms<'_>,
     names: &mut Names,
@@ -116,6 +191,7 @@ pub(super) fn followers(
         let follower = Follower {
             off: names.step(&format!("{}_was_off", variable.name)),
             on: names.step(&format!("X{}_was", variable.name)),
+            is_on: forms.seen.is_initial(atom),
             variable: variable.name.clone(),
         };
         wording.stands_for(before, follower.on.clone());
@@ -124,32 +200,42 @@ pub(super) fn followers(
     found
 }
 
-/// Draws the followers. Their receptivities read the variable as the last scan
-/// has published it.
-pub(super) fn draw_followers(followers: &[Follower], names: &mut Names, chart: &mut Chart) {
-    for follower in followers {
-        let (off, on) = (&follower.off, &follower.on);
+/// What tells the first scan from the others.
+pub(super) struct First {
+    step: Name,
+    /// An output that is on from the first scan on, and so is read as on from
+    /// the second.
+    begun: Name,
+}
+
+/// The step of the first scan, named, if something has to know it.
+fn first(forms: &Forms<'_>, names: &mut Names, wording: &mut Wording<'_>) -> Option<First> {
+    if !forms.knows_first() {
+        return None;
+    }
+    let first = First {
+        step: names.step("First"),
+        begun: names.step("begun"),
+    };
+    wording.stands_for(forms.seen.first, first.step.clone());
+    Some(first)
+}
+
+impl First {
+    /// Draws it, beside the step that is always active.
+    pub(super) fn draw(&self, always: Name, names: &mut Names, chart: &mut Chart) {
         chart.steps.push(Step {
             initial: true,
-            ..Step::new(off.clone())
+            comment: Some("active in the first scan only".into()),
+            ..Step::new(self.step.clone())
         });
-        let comment = format!(
-            "{} as the last scan left it: rungs above its own see that",
-            follower.variable
-        );
-        chart.steps.push(Step {
-            comment: Some(comment.into()),
-            ..Step::new(on.clone())
+        let name = names.transition("First_ends");
+        let receptivity = Expr::variable(self.begun.clone());
+        chart.transitions.push(Transition {
+            to: Vec::new(),
+            ..Transition::new(name, self.step.clone(), self.step.clone(), receptivity)
         });
-        let followed = Expr::variable(follower.variable.clone());
-        for (word, from, to, receptivity) in [
-            ("starts", off, on, followed.clone()),
-            ("ends", on, off, followed.complement()),
-        ] {
-            let name = names.transition(&format!("{}_was_{word}", follower.variable));
-            chart
-                .transitions
-                .push(Transition::new(name, from.clone(), to.clone(), receptivity));
-        }
+        let action = Action::continuous(always, self.begun.clone());
+        chart.actions.push(action);
     }
 }

@@ -35,8 +35,6 @@ pub enum Unsaid {
     Between(Name),
     /// A box or a calculation writes it.
     Written,
-    /// It is on before the first scan.
-    Initial(Name),
 }
 
 impl Unsaid {
@@ -51,7 +49,6 @@ impl Unsaid {
                 format!("it sees `{name}` while other rungs are still writing it")
             }
             Self::Written => "a box or a calculation writes it too".into(),
-            Self::Initial(name) => format!("`{name}` is on before the first scan"),
         }
     }
 }
@@ -66,14 +63,19 @@ pub(super) struct Seen<'a> {
     /// The same the other way round.
     of_before: HashMap<AtomId, AtomId>,
     next: HashMap<AtomId, Result<Function, Unsaid>>,
+    /// Stands for a step that is active in the first scan only.
+    pub(super) first: AtomId,
     /// Variables that are on before the first scan.
     initial: BTreeSet<AtomId>,
-    writes: HashMap<AtomId, Vec<(Place, Result<Write, Unsaid>)>>,
+    writes: HashMap<AtomId, Vec<Known>>,
     between: HashMap<(AtomId, usize), Result<Function, Unsaid>>,
     machine: Machine<'a>,
     order: Order<'a>,
     budget: Budget,
 }
+
+/// A write as it is seen, and when it happens.
+type Known = (Place, Result<Write, Unsaid>);
 
 impl<'a> Seen<'a> {
     pub(super) fn new(analysis: &'a Analysis, budget: &Budget) -> Self {
@@ -95,11 +97,13 @@ impl<'a> Seen<'a> {
                 (it.atom, atoms.add_variable(&name))
             })
             .collect();
+        let first = atoms.add_variable(&"the first scan".into());
         let on = variables.iter().filter(|it| machine.is_on(&it.name));
         let mut seen = Self {
             atoms,
             of_before: before.iter().map(|(of, before)| (*before, *of)).collect(),
             before,
+            first,
             next: HashMap::new(),
             initial: on.map(|it| it.atom).collect(),
             writes: HashMap::new(),
@@ -137,7 +141,11 @@ impl<'a> Seen<'a> {
         for (place, write) in open {
             let seen = self.write(place, write);
             let at = done.entry(write.target).or_default();
-            if let Some(it) = self.writes.get_mut(&write.target).and_then(|it| it.get_mut(*at)) {
+            if let Some(it) = self
+                .writes
+                .get_mut(&write.target)
+                .and_then(|it| it.get_mut(*at))
+            {
                 it.1 = seen;
             }
             *at += 1;
@@ -313,12 +321,7 @@ impl<'a> Seen<'a> {
         }
     }
 
-    fn writes_before(
-        &self,
-        atom: AtomId,
-        name: &Name,
-        reader: &Reader,
-    ) -> Result<Writes, Unsaid> {
+    fn writes_before(&self, atom: AtomId, name: &Name, reader: &Reader) -> Result<Writes, Unsaid> {
         let known = self.writes.get(&atom).map_or(&[][..], Vec::as_slice);
         let mut counts = self.order.readings(name, reader).into_iter().map(|place| {
             let before = known.partition_point(|(at, _)| *at < place);
