@@ -1,6 +1,7 @@
 //! When in a scan the rungs are solved, and who writes what there.
 
 use std::collections::{BTreeMap, HashMap};
+use std::ops::Range;
 
 use ladder::{ContactKind, ElementKind, Program, flow};
 use logic::Name;
@@ -17,14 +18,16 @@ type Rung = (usize, usize);
 /// Calls, jumps and zones in each other beyond which nobody looks.
 const DEEPEST: usize = 64;
 
+/// Stretches of one rung beyond which nobody looks.
+const MOST_STRETCHES: usize = 64;
+
 /// When the rungs of a program are solved.
 pub(super) struct Order<'p> {
     program: &'p Program,
     execution: flow::Execution,
-    /// The one visit to a rung: the order it is in, its place there and among
-    /// all. None if there are several.
-    visits: HashMap<Rung, Option<Visit>>,
-    /// Where a variable is written; none for a rung with several visits.
+    /// The visits to a rung: one, or one for each stretch of it, or several.
+    visits: HashMap<Rung, Vec<Visit>>,
+    /// Where a variable is written; none for what is solved several times.
     writings: HashMap<Name, Vec<Option<Place>>>,
     /// Where it may be written with all its parts: by anything but a coil.
     wholes: HashMap<Name, Vec<Option<Place>>>,
@@ -32,22 +35,25 @@ pub(super) struct Order<'p> {
     parts: HashMap<Name, Vec<Option<Place>>>,
 }
 
-#[derive(Clone, Copy)]
+/// A visit: the order it is in, its place there and among all, and the elements
+/// that are solved.
+#[derive(Clone)]
 struct Visit {
     order: usize,
     at: usize,
     rank: usize,
+    elements: Range<usize>,
 }
 
 /// What reads a variable on the way to an element.
-type Reads = HashMap<Name, Vec<usize>>;
+type Reads = HashMap<Name, Vec<Place>>;
 
 /// Something that is solved, and what decides whether it is.
 pub(super) struct Reader {
     place: Place,
-    /// It and the elements that decide whether it is solved: when they are, and
-    /// what is read on the way to them.
-    reads: Vec<(usize, Reads)>,
+    /// What is read on the way to it, and to the elements that decide whether it
+    /// is solved.
+    reads: Reads,
 }
 
 impl<'p> Order<'p> {
@@ -65,15 +71,14 @@ impl<'p> Order<'p> {
             for at in 0..order.visits_of(number).visits.len() {
                 let visit = &order.visits_of(number).visits[at];
                 let rung = (visit.routine, visit.rung);
+                let elements = visit.elements.clone();
                 let visit = Visit {
                     order: number,
                     at,
                     rank,
+                    elements,
                 };
-                let known = order.visits.entry(rung).or_insert(Some(visit));
-                if known.is_some_and(|it| it.rank != rank) {
-                    *known = None;
-                }
+                order.visits.entry(rung).or_default().push(visit);
                 rank += 1;
             }
         }
@@ -89,10 +94,14 @@ impl<'p> Order<'p> {
     }
 
     fn find_writings(&mut self) {
-        for (&(routine, rung), visit) in &self.visits {
+        for (&(routine, rung), visits) in &self.visits {
             let network = &self.program.routines[routine].rungs[rung].network;
             for (at, element) in network.elements() {
-                let place = visit.map(|it| (it.rank, at.index()));
+                let place = match only_one(visits, at.index()) {
+                    Some(Ok(visit)) => Some((visit.rank, at.index())),
+                    Some(Err(())) => None,
+                    None => continue,
+                };
                 for written in element.kind.writes() {
                     let known = match element.kind {
                         ElementKind::Coil(_) => &mut self.writings,
@@ -107,12 +116,12 @@ impl<'p> Order<'p> {
         }
     }
 
-    /// Where a rung stands in the scan; none if it is never solved, an error
-    /// if it is solved several times.
-    pub(super) fn of(&self, rung: Rung) -> Option<Result<usize, ()>> {
-        let visit = self.visits.get(&rung)?;
-        let Some(visit) = visit else {
-            return Some(Err(()));
+    /// When an element is solved; none if it never is, an error if it is solved
+    /// several times.
+    pub(super) fn of(&self, rung: Rung, element: usize) -> Option<Result<usize, ()>> {
+        let visit = match only_one(self.visits.get(&rung)?, element)? {
+            Ok(visit) => visit,
+            Err(()) => return Some(Err(())),
         };
         let order = self.visits_of(visit.order);
         let guards = order.guards(order.visits[visit.at].guards);
@@ -123,10 +132,11 @@ impl<'p> Order<'p> {
         Some(if is_beyond { Err(()) } else { Ok(visit.rank) })
     }
 
-    /// What is solved at `place` of a rung that is solved once.
+    /// What is solved at `place` of a rung, and only there.
     pub(super) fn reader(&self, place: Place, rung: Rung) -> Reader {
-        let mut reads = vec![(place.0, self.reads(rung, place.1))];
-        if let Some(Some(visit)) = self.visits.get(&rung) {
+        let mut reads = self.reads(rung, place.1);
+        let visits = self.visits.get(&rung).map_or(&[][..], Vec::as_slice);
+        if let Some(Ok(visit)) = only_one(visits, place.1) {
             let order = self.visits_of(visit.order);
             for guard in order.guards(order.visits[visit.at].guards).take(DEEPEST) {
                 let by = match guard {
@@ -135,9 +145,10 @@ impl<'p> Order<'p> {
                     flow::Guard::Repeated { .. } => continue,
                 };
                 let at = &order.visits[by.visit];
-                let rank = visit.rank - visit.at + by.visit;
                 let there = self.reads((at.routine, at.rung), by.element.index());
-                reads.push((rank, there));
+                for (name, places) in there {
+                    reads.entry(name).or_default().extend(places);
+                }
             }
         }
         Reader { place, reads }
@@ -149,6 +160,8 @@ impl<'p> Order<'p> {
     fn reads(&self, (routine, rung): Rung, element: usize) -> Reads {
         let mut reads = Reads::new();
         let network = &self.program.routines[routine].rungs[rung].network;
+        let visits = self.visits.get(&(routine, rung));
+        let visits = visits.map_or(&[][..], Vec::as_slice);
         let element = NodeIndex::new(element);
         let is_since = sees_several_moments(network, element);
         let changing = match is_since {
@@ -162,7 +175,11 @@ impl<'p> Order<'p> {
             for read in kind.reads() {
                 let is_since = !sees_edge && changing.contains_key(&read.name);
                 let at = if is_since { 0 } else { at.index() };
-                reads.entry(read.name.clone()).or_default().push(at);
+                let Some(Ok(visit)) = only_one(visits, at) else {
+                    continue;
+                };
+                let known = reads.entry(read.name.clone()).or_default();
+                known.push((visit.rank, at));
             }
         }
         reads
@@ -171,15 +188,8 @@ impl<'p> Order<'p> {
     /// Where `reader` looks at a variable; where it stands itself if nothing
     /// on the way to it does.
     pub(super) fn readings(&self, name: &Name, reader: &Reader) -> Vec<Place> {
-        let mut found = Vec::new();
-        for (rank, reads) in &reader.reads {
-            let at = reads.get(name).map_or(&[][..], Vec::as_slice);
-            found.extend(at.iter().map(|at| (*rank, *at)));
-        }
-        if found.is_empty() {
-            found.push(reader.place);
-        }
-        found
+        let known = reader.reads.get(name).cloned();
+        known.unwrap_or_else(|| vec![reader.place])
     }
 
     /// Where a variable is written, as a whole or in part; an error if that is
@@ -190,6 +200,17 @@ impl<'p> Order<'p> {
         let known = known.chain(self.parts.get(name)).flatten();
         known.map(|place| place.ok_or(())).collect()
     }
+}
+
+/// The visit in which an element is solved; none if there is none, an error if
+/// there are several.
+fn only_one(visits: &[Visit], element: usize) -> Option<Result<&Visit, ()>> {
+    if visits.len() > MOST_STRETCHES {
+        return Some(Err(()));
+    }
+    let mut those = visits.iter().filter(|it| it.elements.contains(&element));
+    let first = those.next()?;
+    Some(those.next().map_or(Ok(first), |_| Err(())))
 }
 
 /// A name, and the names of what it is a part of: `A.B[1].2`, `A.B[1]`, `A.B`,

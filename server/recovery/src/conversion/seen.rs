@@ -83,7 +83,7 @@ impl<'a> Seen<'a> {
         // What only rungs write that no scan solves is an input.
         let is_written = |it: &&Variable| {
             let mut writes = it.writes.iter();
-            writes.any(|write| order.of(write.place.rung()).is_some())
+            writes.any(|write| order.of(write.place.rung(), write.place.element).is_some())
         };
         let variables: Vec<&Variable> = super::actions::own_variables(analysis)
             .filter(is_written)
@@ -123,7 +123,7 @@ impl<'a> Seen<'a> {
         for variable in variables {
             self.writes.insert(variable.atom, Vec::new());
             for write in &variable.writes {
-                match self.order.of(write.place.rung()) {
+                match self.order.of(write.place.rung(), write.place.element) {
                     Some(Ok(rank)) => open.push(((rank, write.place.element), write)),
                     Some(Err(())) => {
                         repeated.insert(variable.atom);

@@ -139,7 +139,12 @@ fn random_ladders_with_everything() {
             } else {
                 "different".into()
             };
-        for it in &unsaid { eprintln!("WHY {}", it.split_once(": ").unwrap().1.split('`').next().unwrap()); }
+        for it in &unsaid {
+            eprintln!(
+                "WHY {}",
+                it.split_once(": ").unwrap().1.split('`').next().unwrap()
+            );
+        }
         *counts.entry((unsaid.is_empty(), word.clone())).or_insert(0) += 1;
         assert!(
             word != "different" || !unsaid.is_empty(),
