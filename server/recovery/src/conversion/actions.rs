@@ -108,15 +108,17 @@ impl Actions<'_> {
     /// A rung that holds nothing: a continuous action on the steps where its
     /// guard can be true, or of the step that is always active.
     fn add_conditional(&mut self, variable: &Variable) {
-        // A transition bit that is resolved wherever it is read is not there.
-        let next = match self.forms.of(variable.atom) {
-            Some(_) if !self.forms.read.contains(&variable.atom) => return,
-            Some(Form::Action(next)) => next.clone(),
-            Some(_) => match self.wording.resolved(variable) {
-                Some(next) => next,
-                None => return,
-            },
-            None => return,
+        let forms = self.forms;
+        let next = match forms.of(variable.atom) {
+            // A transition bit that is resolved wherever it is read is not there.
+            Some(_) if !forms.read.contains(&variable.atom) => None,
+            Some(Form::Action(next)) => Some(next.clone()),
+            // A state to which nothing accepted leads has no step.
+            None if !forms.is_member(variable.atom) => None,
+            _ => self.wording.resolved(variable),
+        };
+        let Some(next) = next else {
+            return;
         };
         let on_steps = shares(&next, self.sequences, self.wording);
         if !on_steps.is_empty() {

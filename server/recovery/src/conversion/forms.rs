@@ -37,6 +37,8 @@ pub(super) enum Form {
 pub(super) struct Forms<'a> {
     pub(super) seen: Seen<'a>,
     forms: BTreeMap<AtomId, Form>,
+    /// States that belong to sequences.
+    members: BTreeSet<AtomId>,
     /// Why what is said roughly is, and no sequence is the reason.
     pub(super) unsaid: BTreeMap<AtomId, Unsaid>,
     /// Variables whose last value actions read, by their atoms.
@@ -118,6 +120,7 @@ impl<'a> Forms<'a> {
         let mut forms = Self {
             seen: choice.seen,
             forms,
+            members: choice.members,
             unsaid,
             followed: BTreeSet::new(),
             read: BTreeSet::new(),
@@ -126,7 +129,13 @@ impl<'a> Forms<'a> {
         forms
     }
 
-    /// The form of a variable; none if a sequence holds it.
+    /// Whether the variable is a state of a sequence.
+    pub(super) fn is_member(&self, atom: AtomId) -> bool {
+        self.members.contains(&atom)
+    }
+
+    /// The form of a variable; none if a sequence holds it, or no coil of the
+    /// program's own that is ever solved.
     pub(super) fn of(&self, atom: AtomId) -> Option<&Form> {
         self.forms.get(&atom)
     }
@@ -172,14 +181,13 @@ impl<'a> Forms<'a> {
         }
     }
 
-    /// Whether something has to know which scan is the first.
-    pub(super) fn knows_first(&self) -> bool {
+    /// Whether an action has to know which scan is the first.
+    pub(super) fn acts_in_first(&self) -> bool {
         let mut forms = self.forms.values();
-        let knows = |form: &Form| match form {
+        forms.any(|form| match form {
             Form::Action(next) => next.depends_on(self.seen.first),
             Form::Steps(_) | Form::Rough => false,
-        };
-        forms.any(knows) || self.followed.iter().any(|it| self.seen.is_initial(*it))
+        })
     }
 }
 

@@ -102,6 +102,11 @@ impl<'p> Order<'p> {
                     Some(Err(())) => None,
                     None => continue,
                 };
+                // What a box writes that nobody knows comes from outside, as
+                // inputs do.
+                if matches!(element.kind, ElementKind::Block(_)) {
+                    continue;
+                }
                 for written in element.kind.writes() {
                     let known = match element.kind {
                         ElementKind::Coil(_) => &mut self.writings,

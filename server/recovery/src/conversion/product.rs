@@ -40,11 +40,13 @@ impl<'f> Product<'f> {
         names: &mut Names,
         wording: &mut Wording<'_>,
     ) -> Self {
+        let memories = memories(analysis, forms, names, wording);
+        let followers = followers(analysis, forms, names, wording);
         Self {
             forms,
-            memories: memories(analysis, forms, names, wording),
-            followers: followers(analysis, forms, names, wording),
-            first: first(forms, names, wording),
+            memories,
+            first: first(forms, &followers, names, wording),
+            followers,
         }
     }
 }
@@ -202,39 +204,48 @@ fn followers(
 
 /// What tells the first scan from the others.
 pub(super) struct First {
-    step: Name,
+    /// A step that is active in it only, if an action reads it.
+    step: Option<Name>,
     /// An output that is on from the first scan on, and so is read as on from
     /// the second.
     begun: Name,
 }
 
-/// The step of the first scan, named, if something has to know it.
-fn first(forms: &Forms<'_>, names: &mut Names, wording: &mut Wording<'_>) -> Option<First> {
-    if !forms.knows_first() {
+/// What tells the first scan from the others, if something has to know.
+fn first(
+    forms: &Forms<'_>,
+    followers: &[Follower],
+    names: &mut Names,
+    wording: &mut Wording<'_>,
+) -> Option<First> {
+    let acts = forms.acts_in_first();
+    if !acts && !followers.iter().any(|it| it.is_on) {
         return None;
     }
-    let first = First {
-        step: names.step("First"),
-        begun: names.step("begun"),
-    };
-    wording.stands_for(forms.seen.first, first.step.clone());
-    Some(first)
+    let step = acts.then(|| names.step("First"));
+    if let Some(step) = &step {
+        wording.stands_for(forms.seen.first, step.clone());
+    }
+    let begun = names.step("begun");
+    Some(First { step, begun })
 }
 
 impl First {
     /// Draws it, beside the step that is always active.
     pub(super) fn draw(&self, always: Name, names: &mut Names, chart: &mut Chart) {
-        chart.steps.push(Step {
-            initial: true,
-            comment: Some("active in the first scan only".into()),
-            ..Step::new(self.step.clone())
-        });
-        let name = names.transition("First_ends");
-        let receptivity = Expr::variable(self.begun.clone());
-        chart.transitions.push(Transition {
-            to: Vec::new(),
-            ..Transition::new(name, self.step.clone(), self.step.clone(), receptivity)
-        });
+        if let Some(step) = &self.step {
+            chart.steps.push(Step {
+                initial: true,
+                comment: Some("active in the first scan only".into()),
+                ..Step::new(step.clone())
+            });
+            let name = names.transition("First_ends");
+            let receptivity = Expr::variable(self.begun.clone());
+            chart.transitions.push(Transition {
+                to: Vec::new(),
+                ..Transition::new(name, step.clone(), step.clone(), receptivity)
+            });
+        }
         let action = Action::continuous(always, self.begun.clone());
         chart.actions.push(action);
     }

@@ -236,6 +236,9 @@ impl<'a> Seen<'a> {
         let reader = self.order.reader(place, write.place.rung());
         let whole = |it: &Result<Function, _>| it.as_ref().is_ok_and(Function::is_true);
         let is_always = whole(&write.solved) && whole(&write.zone);
+        for circumstance in [&write.solved, &write.zone].into_iter().flatten() {
+            self.check_own(circumstance, write.target, &reader)?;
+        }
         for function in [&mut seen.guard, &mut seen.solved, &mut seen.zone] {
             let known = function.as_ref().map_err(|_| Unsaid::TooLarge)?;
             *function = Ok(self.function(known, write.target, &reader, is_always)?);
@@ -254,6 +257,24 @@ impl<'a> Seen<'a> {
             WriteKind::Unknown(_) => return Err(Unsaid::Written),
         }
         Ok(seen)
+    }
+
+    /// What decides whether a rung is solved may depend on the variable that it
+    /// writes: folding takes that for what was before the scan.
+    fn check_own(
+        &self,
+        circumstance: &Function,
+        target: AtomId,
+        reader: &Reader,
+    ) -> Result<(), Unsaid> {
+        let Atom::Variable(name) = self.atoms.atom(target) else {
+            return Ok(());
+        };
+        let is_before = || self.writes_before(target, name, reader);
+        match circumstance.depends_on(target) && is_before()? != Writes::None {
+            true => Err(Unsaid::Between(name.clone())),
+            false => Ok(()),
+        }
     }
 
     /// The atom of what a copy copies.

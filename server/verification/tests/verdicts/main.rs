@@ -9,6 +9,7 @@ mod random;
 mod random_text;
 
 mod corpus;
+mod ladders;
 mod limits;
 mod neutralization;
 mod product;
