@@ -246,9 +246,9 @@ mod tests {
         // With `q` off the rung switches it on, and the leg sees that.
         assert_eq!(next_of("p", "/q -> q, (q*c -> p)"), "/q*c");
         assert_eq!(next_of("p", "a*/q -> set q, (b*q -> p)"), "/q*a*b");
-        assert_eq!(next_of("p", "a -> q, (/q -> reset q), (b*/q -> p)"), "0");
-        // Where all see the same, they are spoken of as they see it.
-        assert_eq!(next_of("p", "a -> q, (q*c -> p)"), "a*q*c");
+        // Where all that lead to the coil see the same, they are spoken of as
+        // they see it.
+        assert_eq!(next_of("p", "a -> q, (q*c -> p)"), "q*a*c");
     }
 
     #[test]
