@@ -8,6 +8,7 @@
 //! changed in it by hand, up to new decisions.
 
 mod actions;
+mod astray;
 mod base;
 mod branches;
 mod decisions;
@@ -21,6 +22,7 @@ mod register;
 mod seen;
 mod sequence;
 mod sums;
+mod unsaid;
 mod update;
 mod wording;
 
@@ -29,8 +31,8 @@ use logic::{Budget, Name};
 
 pub use decisions::{Accept, Accepted, decide};
 pub use findings::spec_findings;
-pub use seen::Unsaid;
 pub(crate) use sums::Sums;
+pub use unsaid::Unsaid;
 pub use update::{Departure, Update, update};
 
 use crate::Analysis;
