@@ -27,7 +27,9 @@ impl Unsaid {
             Self::TooLarge => "its condition is too large".into(),
             Self::Repeated => "a rung of it may be solved several times in a scan".into(),
             Self::SkippedEdge => "it sees an edge in a rung that is not always solved".into(),
-            Self::Edge(name) => format!("it sees an edge of `{name}` as it was in the last scan"),
+            Self::Edge(name) => {
+                format!("it sees an edge of `{name}` before the scan has written it to the end")
+            }
             Self::Between(name) => {
                 format!("it sees `{name}` while other rungs are still writing it")
             }
