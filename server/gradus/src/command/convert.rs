@@ -47,7 +47,9 @@ that is no spec is never replaced.
 
 Accepting:
   none       nothing; without any decision every state is a small grafcet of two
-             steps, which mostly does what the ladder does; the verdict tells
+             steps, or said as its rungs have it where two steps would not do the
+             same; so the spec does what the ladder does, and where it may not,
+             the summary says which rungs are why
   handover   every pair of which the end of the one is the start of the other
   witnessed  every pair that a sequence of inputs shows, in plants that obey the
              environment rules of the spec and change one input at a time: no
@@ -67,14 +69,17 @@ JSON:
   {\"file\", \"spec\", \"state\", \"steps\", \"transitions\", \"actions\",
     \"states\": [{\"state\", \"accepted\": [{\"to\": [], \"new\"}], \"written\": [],
       \"open\": [{\"to\", \"evidence\", \"kind\"}], \"rejected\": [], \"initial\"}],
-    \"two_step\": [], \"unreached\": [], \"in_definitions\": [], \"sequence\",
-    \"reason\", \"verdict\", \"settled\", \"diagnostics\": [], \"text\"}
+    \"two_step\": [], \"as_rungs\": [], \"unreached\": [], \"in_definitions\": [],
+    \"inexact\": [{\"name\", \"rungs\": [], \"reason\"}], \"sequence\", \"reason\",
+    \"verdict\", \"settled\", \"diagnostics\": [], \"text\"}
   `verdict` is equivalent, different or unknown, null where the spec has no outputs;
   `settled` is equivalent where it is different after single scans and equal when
   both sides rest, else null.
   `state` is new, changed, unchanged, would_change or printed. `states` are those
   about which something is decided, written or open; `two_step` those that no
-  accepted pair ties to a sequence, `unreached` those to which nothing accepted
+  accepted pair ties to a sequence, `as_rungs` those of them that two steps could
+  not say, `inexact` variables that the spec does not say exactly and why,
+  `unreached` those to which nothing accepted
   leads from where their sequence starts, `in_definitions` those of blocks that the
   file defines, which are not drawn. `diagnostics` are as in `gradus check`, about
   the spec. `text` is the spec with `-o -`, else null.
@@ -287,8 +292,12 @@ fn finish(
     let name = conversion.file.name();
     let paint = io.answer_paint();
     let summary = |paint| {
-        text::summary(&outcome, &name, state, paint)
-            + &format!("{}: {}\n", printable(&name), verdict.sentence)
+        let mut told = text::summary(&outcome, &name, state, paint);
+        told += &format!("{}: {}\n", printable(&name), verdict.sentence);
+        if verdict.word.is_some_and(|word| word != "equivalent") {
+            told += &text::inexact(&outcome);
+        }
+        told
     };
     if args.dry_run && conversion.file.path.is_some() {
         let diff = diff::unified(&printable(&name), &old, &new, paint);

@@ -134,12 +134,21 @@ enum Skipping {
 /// Stands for a variable as it was at the start of the scan, in a condition in
 /// which the variable's own atom is what it was before the rung. No table gives
 /// this number to an atom.
-const AT_START: AtomId = AtomId(0);
+pub(crate) const AT_START: AtomId = AtomId(0);
 
 /// The variable as it was at the start of the scan, in the guard of one that
 /// its rung writes several times.
 pub(super) fn at_start() -> Function {
     Function::atom(AT_START)
+}
+
+/// The value of `atom` after these writes, over what it was before them.
+pub(crate) fn value_after(
+    atom: AtomId,
+    writes: &[Write],
+    budget: &Budget,
+) -> Result<Function, Stop> {
+    next_value(atom, writes, Skipping::Keeps, budget)
 }
 
 /// The value of `atom` after the scan: its writes, one after the other.
@@ -213,10 +222,15 @@ mod tests {
 
     /// The value of `q` after a scan of one rung.
     fn next(rung: &str) -> String {
+        next_of("q", rung)
+    }
+
+    /// The value of a variable after a scan of one rung.
+    fn next_of(name: &str, rung: &str) -> String {
         let program = ladder::read(format!("program P\n\nrung: {rung}\n").as_bytes()).program;
-        let (budget, q) = (Budget::default(), "q");
+        let budget = Budget::default();
         let conditions = conditions(&program, &budget);
-        let variable = conditions.find(q).expect("a coil drives it");
+        let variable = conditions.find(name).expect("a coil drives it");
         let next = variable.next.as_ref().expect("a small condition");
         notation::write(&conditions.expr(next, &budget).expect("a small sum"))
     }
@@ -225,6 +239,16 @@ mod tests {
     fn a_leg_sees_what_the_legs_above_it_have_written() {
         assert_eq!(next("a -> q, (b*/q -> set q)"), "a");
         assert_eq!(next("a -> set q, (b*q -> reset q)"), "q*/a + a*/b");
+    }
+
+    #[test]
+    fn where_contacts_see_a_coil_before_and_after_the_condition_is_that_before_the_rung() {
+        // With `q` off the rung switches it on, and the leg sees that.
+        assert_eq!(next_of("p", "/q -> q, (q*c -> p)"), "/q*c");
+        assert_eq!(next_of("p", "a*/q -> set q, (b*q -> p)"), "/q*a*b");
+        // Where all that lead to the coil see the same, they are spoken of as
+        // they see it.
+        assert_eq!(next_of("p", "a -> q, (q*c -> p)"), "q*a*c");
     }
 
     #[test]

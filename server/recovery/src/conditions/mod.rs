@@ -35,10 +35,12 @@ use std::sync::Arc;
 use ladder::{Program, flow};
 use logic::{AtomId, Atoms, Budget, Expr, Function, Name, Stop};
 
+pub(crate) use fold::{AT_START, value_after};
 pub(crate) use naming::{Names, Uses};
 use patch::Beyond;
 pub use power::{Powers, Walk, powers};
 use sequence::{Earlier, Rungs, Solution};
+pub(crate) use solving::{changing, leading_to, sees_several_moments};
 use source::Diagnostic;
 pub use timers::TimerLaw;
 pub use variables::Variables;

@@ -12,10 +12,9 @@ use ladder::{
 };
 use logic::{AtomId, Function, Name, Stop};
 use petgraph::graph::NodeIndex;
-use petgraph::visit::{Dfs, Reversed};
 
 use super::power::{edge_of, powers_seeing};
-use super::solving::Solving;
+use super::solving::{Solving, leading_to};
 use super::{Powers, Walk};
 
 /// A rung, solved.
@@ -31,8 +30,8 @@ pub(super) struct Solved {
     pub(super) opaque: HashSet<AtomId>,
     /// Every atom that it asks for, in the order of first asking.
     pub(super) atoms: Vec<AtomId>,
-    /// Whether it depends on the zone around it: several of its coils write
-    /// the same variable, so that the later see what the earlier did there.
+    /// Whether it depends on the zone around it: some of it sees what its
+    /// coils did there.
     pub(super) rewrites: bool,
 }
 
@@ -109,20 +108,26 @@ fn solved(network: &Network, zone: &Result<Function, Stop>, walk: &mut Walk<'_>)
     for (at, element) in network.elements() {
         for effect in effects(&element.kind, walk) {
             let event = event(at, effect, network, &solving, walk);
-            solving.add(&event, zone, walk);
+            solving.add(&event, network, zone, walk);
             found.events.push(event.into());
         }
-        let power = || solving.powers.at(at).cloned();
+        if !steers(&element.kind) && !matches!(element.kind, ElementKind::Timer(_)) {
+            continue;
+        }
+        let power = match solving.since(network, at, None, walk) {
+            Some(since) => since.whole.at(at).cloned(),
+            None => solving.powers.at(at).cloned(),
+        };
         if let ElementKind::Timer(timer) = &element.kind {
             found.timers.push(Timed {
                 element: at.index(),
                 output: walk.atoms.add_variable(&timer.output),
                 kind: timer.kind,
-                input: power(),
+                input: power.clone(),
             });
         }
         if steers(&element.kind) {
-            found.steering.push((at, power()));
+            found.steering.push((at, power));
         }
     }
     found
@@ -140,13 +145,18 @@ fn event(
         .target
         .map(|target| solving.seen(target, &upstream.contacts))
         .filter(|seen| !seen.is_empty());
-    let effective = seen.map(|seen| {
-        let powers = powers_seeing(&seen, network, walk);
-        guard_of(&effect, &powers, at, walk)
+    let since = solving.since(network, at, upstream.target, walk);
+    let effective = seen.map(|seen| match &since {
+        Some(since) => guard_of(&effect, since.whole, at, walk),
+        None => {
+            let powers = powers_seeing(&seen, network, walk);
+            guard_of(&effect, &powers, at, walk)
+        }
     });
+    let powers = since.as_ref().map_or(&solving.powers, |it| &it.powers);
     Event {
         element: at.index(),
-        guard: guard_of(&effect, &solving.powers, at, walk),
+        guard: guard_of(&effect, powers, at, walk),
         effect,
         closed_contacts: Arc::new(upstream.closed_contacts),
         effective,
@@ -187,7 +197,7 @@ fn effects(kind: &ElementKind, walk: &mut Walk<'_>) -> Vec<Effect> {
 }
 
 /// The power at an element; for a coil that writes an edge, the edge of it.
-fn guard_of(
+pub(super) fn guard_of(
     effect: &Effect,
     powers: &Powers,
     element: NodeIndex,
@@ -226,9 +236,7 @@ fn upstream(
     };
     let mut contacts = Vec::new();
     let mut closed_contacts = BTreeSet::new();
-    let backwards = Reversed(network.graph());
-    let mut search = Dfs::new(backwards, element);
-    while let Some(at) = search.next(backwards) {
+    for at in leading_to(network, element) {
         let ElementKind::Contact(contact) = &network.element(at).kind else {
             continue;
         };

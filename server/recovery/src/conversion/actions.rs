@@ -3,23 +3,20 @@
 use grafcet::{Action, Chart, Effect, Step};
 use logic::{AtomId, Expr, Function, Name};
 
+use super::forms::{Form, Forms};
 use super::naming::Names;
-use super::product::Memory;
+use super::product::Product;
 use super::sequence::Plan;
 use super::wording::Wording;
 use crate::Analysis;
-use crate::conditions::{Variable, WriteKind};
+use crate::conditions::Variable;
 use crate::states::StoredOutput;
 
 /// The variables that belong to the program itself. Those of a block's
 /// definition belong to its instances; they count only in a file that holds
 /// nothing but definitions.
 pub(super) fn own_variables(analysis: &Analysis) -> impl Iterator<Item = &Variable> {
-    let all_defined = analysis
-        .conditions
-        .variables
-        .iter()
-        .all(|variable| analysis.is_in_definition(variable));
+    let all_defined = analysis.program.is_only_definitions();
     analysis
         .conditions
         .variables
@@ -32,13 +29,14 @@ pub(super) fn own_variables(analysis: &Analysis) -> impl Iterator<Item = &Variab
 pub(super) fn add(
     analysis: &Analysis,
     sequences: &[Plan],
-    memories: &[Memory],
+    product: &Product<'_>,
     names: &mut Names,
     wording: &Wording<'_>,
     chart: &mut Chart,
 ) {
     let mut actions = Actions {
         analysis,
+        forms: product.forms,
         sequences,
         wording,
         names,
@@ -49,11 +47,13 @@ pub(super) fn add(
     for variable in own_variables(analysis) {
         let atom = variable.atom;
         let mut stored = analysis.states().stored.iter();
-        if let Some(stored) = stored.find(|it| it.atom == atom) {
+        let is_exact = matches!(
+            product.forms.of(atom),
+            Some(Form::Steps(_) | Form::Action(_))
+        );
+        if let Some(stored) = stored.find(|it| it.atom == atom && !is_exact) {
             actions.add_stored(stored);
-        } else if memories.iter().any(|memory| memory.atom == atom)
-            || !wording.steps_of(atom).is_empty()
-        {
+        } else if !wording.steps_of(atom).is_empty() {
             actions.add_state(variable);
         } else {
             conditional.push(variable);
@@ -62,11 +62,16 @@ pub(super) fn add(
     for variable in conditional {
         actions.add_conditional(variable);
     }
+    if let Some(first) = &product.first {
+        let always = actions.always();
+        first.draw(always, actions.names, actions.chart);
+    }
 }
 
 /// A chart whose steps are drawn, and what it takes to add their actions.
 struct Actions<'a> {
     analysis: &'a Analysis,
+    forms: &'a Forms<'a>,
     sequences: &'a [Plan],
     wording: &'a Wording<'a>,
     names: &'a mut Names,
@@ -88,10 +93,10 @@ impl Actions<'_> {
         }
     }
 
-    /// The bit of a state is its step; the plant sees it only if it is an
-    /// output.
+    /// The bit of a state is its step; it is written only if it is an output or
+    /// somebody reads what it was.
     fn add_state(&mut self, variable: &Variable) {
-        if !self.analysis.is_output(variable) {
+        if !self.analysis.is_output(variable) && !self.forms.followed.contains(&variable.atom) {
             return;
         }
         for step in self.wording.steps_of(variable.atom) {
@@ -103,15 +108,16 @@ impl Actions<'_> {
     /// A rung that holds nothing: a continuous action on the steps where its
     /// guard can be true, or of the step that is always active.
     fn add_conditional(&mut self, variable: &Variable) {
-        let mut writes = variable.writes.iter();
-        let is_coil = writes.any(|write| matches!(write.kind, WriteKind::Coil(_)));
-        // A transition bit is resolved wherever it is read.
-        let is_resolved = self.analysis.states().auxiliaries.contains(variable.atom)
-            && !self.analysis.is_output(variable);
-        if !is_coil || is_resolved {
-            return;
-        }
-        let Some(next) = self.wording.resolved(variable) else {
+        let forms = self.forms;
+        let next = match forms.of(variable.atom) {
+            // A transition bit that is resolved wherever it is read is not there.
+            Some(_) if !forms.read.contains(&variable.atom) => None,
+            Some(Form::Action(next)) => Some(next.clone()),
+            // A state to which nothing accepted leads has no step.
+            None if !forms.is_member(variable.atom) => None,
+            _ => self.wording.resolved(variable),
+        };
+        let Some(next) = next else {
             return;
         };
         let on_steps = shares(&next, self.sequences, self.wording);

@@ -36,6 +36,8 @@ pub(super) fn declare(analysis: &Analysis, grafcet: &mut Grafcet) {
             .and_then(|declaration| declaration.address.clone()),
         comment: if analysis.conditions.atoms.find_variable(name).is_some() {
             analysis.description(name)
+        } else if written.contains(name) {
+            None
         } else {
             Some("too large to be written out".into())
         },
@@ -58,7 +60,7 @@ pub(super) fn declare(analysis: &Analysis, grafcet: &mut Grafcet) {
         let is_output = analysis
             .conditions
             .find(name)
-            .is_none_or(|variable| analysis.is_output(variable));
+            .is_some_and(|variable| analysis.is_output(variable));
         if is_output {
             grafcet.outputs.push(declared(name));
         } else {

@@ -8,51 +8,61 @@
 //! changed in it by hand, up to new decisions.
 
 mod actions;
+mod astray;
 mod base;
 mod branches;
 mod decisions;
 mod findings;
+mod forms;
 mod interface;
 mod naming;
+mod order;
 mod product;
 mod register;
+mod seen;
 mod sequence;
 mod sums;
+mod unsaid;
 mod update;
 mod wording;
 
 use grafcet::{Chart, Decision, Grafcet, Spec};
-use logic::Budget;
+use logic::{Budget, Name};
 
 pub use decisions::{Accept, Accepted, decide};
 pub use findings::spec_findings;
 pub(crate) use sums::Sums;
+pub use unsaid::Unsaid;
 pub use update::{Departure, Update, update};
 
 use crate::Analysis;
+use forms::Forms;
 use naming::Names;
+use product::Product;
 use wording::Wording;
 
 /// The spec that the ladder and the decisions give.
 pub fn spec(analysis: &Analysis, decisions: &[Decision], budget: &Budget) -> Spec {
     let accepted = Accepted::new(analysis, decisions);
     let mut names = Names::new(analysis);
-    let mut wording = Wording::new(analysis, budget);
+    let forms = Forms::new(analysis, &accepted, budget);
+    let mut wording = Wording::new(analysis, &forms.seen.atoms, budget);
     let mut chart = Chart::default();
 
     register::name_steps(analysis, &mut names, &mut wording);
     let sequences = sequence::plans(analysis, &accepted, &mut names, &mut wording, budget);
-    let memories = product::memories(analysis, &accepted, &mut names, &mut wording);
+    let product = Product::new(analysis, &forms, &mut names, &mut wording);
 
     // All steps are named by now, so that every receptivity can speak of them.
     register::draw(analysis, &accepted, &mut names, &wording, &mut chart);
     for plan in &sequences {
         plan.draw(analysis, &mut names, &wording, &mut chart);
     }
-    product::draw(&memories, analysis, &mut names, &wording, &mut chart);
+    product.draw(analysis, &mut names, &wording, &mut chart);
     actions::add(
-        analysis, &sequences, &memories, &mut names, &wording, &mut chart,
+        analysis, &sequences, &product, &mut names, &wording, &mut chart,
     );
+    product.draw_followers(&mut names, &mut chart);
 
     let mut grafcet = Grafcet {
         name: (!analysis.program.name.is_empty()).then(|| analysis.program.name.clone()),
@@ -65,4 +75,16 @@ pub fn spec(analysis: &Analysis, decisions: &[Decision], budget: &Budget) -> Spe
         decisions: decisions.to_vec(),
         ..Spec::default()
     }
+}
+
+/// The variables that [`spec`] does not say exactly, each with the reason; in
+/// the order of the ladder. Those that a sequence decides are none of them: a
+/// sequence says what the expert has accepted.
+pub fn unsaid(analysis: &Analysis, decisions: &[Decision], budget: &Budget) -> Vec<(Name, Unsaid)> {
+    let accepted = Accepted::new(analysis, decisions);
+    let forms = Forms::new(analysis, &accepted, budget);
+    let names = actions::own_variables(analysis);
+    names
+        .filter_map(|it| Some((it.name.clone(), forms.unsaid.get(&it.atom)?.clone())))
+        .collect()
 }

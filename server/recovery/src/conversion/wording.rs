@@ -3,7 +3,7 @@
 
 use std::collections::HashMap;
 
-use logic::{Atom, AtomId, Budget, Comparison, Expr, Function, Name};
+use logic::{Atom, AtomId, Atoms, Budget, Comparison, Expr, Function, Name};
 
 use crate::Analysis;
 use crate::conditions::Variable;
@@ -12,6 +12,8 @@ use crate::registers::Register;
 /// Which steps stand for which states, and how to say conditions over them.
 pub(super) struct Wording<'a> {
     analysis: &'a Analysis,
+    /// The atoms of all conditions.
+    atoms: &'a Atoms,
     budget: Budget,
     /// Steps of a state held in one bit; several where it is reached in
     /// different ways.
@@ -25,9 +27,10 @@ pub(super) struct Wording<'a> {
 const MOST_PRODUCTS: usize = 48;
 
 impl<'a> Wording<'a> {
-    pub(super) fn new(analysis: &'a Analysis, budget: &Budget) -> Self {
+    pub(super) fn new(analysis: &'a Analysis, atoms: &'a Atoms, budget: &Budget) -> Self {
         Self {
             analysis,
+            atoms,
             budget: Budget {
                 products: budget.products.min(MOST_PRODUCTS),
                 ..budget.clone()
@@ -80,7 +83,7 @@ impl<'a> Wording<'a> {
 
     /// The same before steps stand for states.
     fn sum(&self, function: &Function) -> Option<Expr> {
-        let atoms = &self.analysis.conditions.atoms;
+        let atoms = self.atoms;
         let mut rest = function.clone();
         let mut care = Function::constant(true);
         let mut edges = Vec::new();
@@ -128,7 +131,7 @@ impl<'a> Wording<'a> {
     /// Like a share of states, of a register's values: the steps at which
     /// `function` can be true, if it is false at all values that have none.
     pub(super) fn shares_of_register(&self, function: &Function) -> Vec<(Name, Option<Expr>)> {
-        let atoms = &self.analysis.conditions.atoms;
+        let atoms = self.atoms;
         let register = function
             .support()
             .iter()
@@ -190,7 +193,7 @@ impl<'a> Wording<'a> {
     fn atom(&self, atom: &Atom) -> Expr {
         match atom {
             Atom::Variable(_) => {
-                let id = self.analysis.conditions.atoms.find(atom);
+                let id = self.atoms.find(atom);
                 match id.map(|id| self.steps_of(id)) {
                     Some(steps) if !steps.is_empty() => any_of(steps.iter()),
                     _ => Expr::Atom(atom.clone()),

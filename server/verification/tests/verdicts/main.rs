@@ -1,6 +1,15 @@
 //! Verdicts about ladders and their specs.
 
+#[path = "../../../ladder/tests/against_c/program.rs"]
+#[allow(dead_code)]
+mod program;
+#[path = "../../../ladder/tests/against_c/random.rs"]
+mod random;
+#[path = "../../../ladder/tests/against_c/text.rs"]
+mod random_text;
+
 mod corpus;
+mod ladders;
 mod limits;
 mod neutralization;
 mod product;

@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use grafcet::{Decision, Spec, Verdict};
 use logic::{Budget, Name};
 use recovery::Analysis;
-use recovery::conversion::{spec_findings, update};
+use recovery::conversion::{Unsaid, spec_findings, unsaid, update};
 use recovery::successions::{Evidence, Succession};
 use source::Diagnostic;
 
@@ -53,6 +53,11 @@ impl<'a> Conversion<'a> {
     /// From now on rules that depart from the ladder are replaced.
     pub fn renew(&mut self) {
         self.renewing = Renewing::Yes;
+    }
+
+    /// The variables that the spec does not say exactly, and why.
+    pub fn unsaid(&self) -> Vec<(Name, Unsaid)> {
+        unsaid(self.analysis, &self.decisions, self.budget)
     }
 
     /// The text that the file shall hold.

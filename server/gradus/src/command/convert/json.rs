@@ -5,7 +5,7 @@ use logic::Name;
 use recovery::successions::Succession;
 use serde_json::{Value, json as value};
 
-use super::outcome::{OfState, Outcome};
+use super::outcome::{Inexact, OfState, Outcome};
 use super::spec_file::State;
 use super::verdict::Found;
 use crate::program::Ladder;
@@ -33,7 +33,9 @@ pub fn json(
         "states": outcome.states.iter().map(of_state).collect::<Vec<_>>(),
         "two_step": names(&outcome.two_step),
         "unreached": names(&outcome.unreached),
+        "as_rungs": names(&outcome.as_rungs),
         "in_definitions": names(&outcome.in_definitions),
+        "inexact": outcome.inexact.iter().map(inexact).collect::<Vec<_>>(),
         "sequence": sequence,
         "reason": reason,
         "verdict": verdict.word,
@@ -55,6 +57,10 @@ fn of_state(state: &OfState<'_>) -> Value {
         "rejected": names(&state.rejected),
         "initial": state.initial,
     })
+}
+
+fn inexact(of: &Inexact) -> Value {
+    value!({ "name": &*of.name, "rungs": of.rungs, "reason": of.reason })
 }
 
 fn open(succession: &Succession) -> Value {

@@ -21,8 +21,13 @@ pub struct Outcome<'a> {
     /// States of which something is accepted, but nothing accepted leads to
     /// them from where their sequence starts.
     pub unreached: Vec<Name>,
+    /// States that are said as their rungs have them, without steps: two steps
+    /// would not do what the rungs do.
+    pub as_rungs: Vec<Name>,
     /// States of blocks that the file defines: they belong to the instances.
     pub in_definitions: Vec<Name>,
+    /// Variables that the spec does not say exactly.
+    pub inexact: Vec<Inexact>,
     /// Steps of the spec.
     pub steps: usize,
     /// Transitions of the spec.
@@ -31,6 +36,16 @@ pub struct Outcome<'a> {
     pub actions: usize,
     /// Whether the ladder holds a sequence, and why.
     pub verdict: (bool, String),
+}
+
+/// A variable that the spec does not say exactly.
+pub struct Inexact {
+    /// The variable.
+    pub name: Name,
+    /// The rungs that write it, as people call them.
+    pub rungs: Vec<String>,
+    /// Why, to go on after its name.
+    pub reason: String,
 }
 
 /// What is decided about the followers of a state.
@@ -65,7 +80,7 @@ impl<'a> Outcome<'a> {
         let grafcet = grafcet::read(text).spec.grafcet;
         let tied = tied(conversion);
         let drawn: BTreeSet<&Name> = grafcet.steps().filter_map(|it| it.state.as_ref()).collect();
-        let those = |is_tied: bool, is_drawn: bool| {
+        let those = |is_tied: bool, is_drawn: bool| -> Vec<Name> {
             let states = conversion.analysis.states().states.iter();
             states
                 .map(|state| &state.name)
@@ -73,17 +88,47 @@ impl<'a> Outcome<'a> {
                 .cloned()
                 .collect()
         };
+        let acted: BTreeSet<&Name> = grafcet.actions().map(|it| &it.output).collect();
+        let without_steps = those(false, false).into_iter();
+        let (as_rungs, in_definitions) = without_steps.partition(|name| acted.contains(name));
         Self {
             states: states(conversion),
             two_step: those(false, true),
             unreached: those(true, false),
-            in_definitions: those(false, false),
+            as_rungs,
+            in_definitions,
+            inexact: inexact(conversion),
             steps: grafcet.steps().count(),
             transitions: grafcet.transitions().count(),
             actions: grafcet.actions().count(),
             verdict: groups::verdict(conversion.analysis.groups()),
         }
     }
+}
+
+fn inexact(conversion: &Conversion<'_>) -> Vec<Inexact> {
+    let analysis = conversion.analysis;
+    let rungs_of = |name: &Name| {
+        let variable = analysis.conditions.find(name).into_iter();
+        let places = variable.flat_map(|it| it.writes.iter().map(|write| write.place));
+        let mut rungs: Vec<String> = places
+            .filter_map(|place| {
+                let routine = analysis.program.routines.get(place.routine)?;
+                let number = routine.rungs.get(place.rung)?.number;
+                Some(format!("rung {number} of {}", routine.scope))
+            })
+            .collect();
+        rungs.dedup();
+        rungs
+    };
+    let unsaid = conversion.unsaid().into_iter();
+    unsaid
+        .map(|(name, why)| Inexact {
+            rungs: rungs_of(&name),
+            reason: why.words(),
+            name,
+        })
+        .collect()
 }
 
 fn states<'a>(conversion: &Conversion<'a>) -> Vec<OfState<'a>> {

@@ -12,6 +12,9 @@ use crate::report::printable;
 /// Of many names only so many are listed.
 const MOST_NAMED: usize = 8;
 
+/// Of the rungs of a variable only so many are listed.
+const MOST_RUNGS: usize = 3;
+
 /// What was accepted, what is open, and what the spec holds now.
 pub fn summary(outcome: &Outcome<'_>, name: &str, state: State, paint: Paint) -> String {
     let mut out = String::new();
@@ -25,6 +28,10 @@ pub fn summary(outcome: &Outcome<'_>, name: &str, state: State, paint: Paint) ->
     }
     for (states, what) in [
         (&outcome.two_step, "left as a grafcet of two steps each"),
+        (
+            &outcome.as_rungs,
+            "said as the rungs have them, since two steps would not do the same",
+        ),
         (&outcome.unreached, "not reached by what is accepted"),
         (
             &outcome.in_definitions,
@@ -55,6 +62,26 @@ pub fn summary(outcome: &Outcome<'_>, name: &str, state: State, paint: Paint) ->
         numbered(outcome.transitions, "transition"),
         numbered(outcome.actions, "action")
     );
+    out
+}
+
+/// Why a spec that was not proved may differ from its ladder: what it does not
+/// say exactly, a line each.
+pub fn inexact(outcome: &Outcome<'_>) -> String {
+    let all = &outcome.inexact;
+    let mut out = String::new();
+    for of in all.iter().take(MOST_NAMED) {
+        let rungs = of.rungs.iter().take(MOST_RUNGS);
+        let mut rungs = rungs.map(|it| printable(it)).collect::<Vec<_>>().join(", ");
+        if of.rungs.len() > MOST_RUNGS {
+            rungs += " and more";
+        }
+        let (name, reason) = (printable(&of.name), printable(&of.reason));
+        out += &format!("  {name} is not said exactly: {reason} ({rungs})\n");
+    }
+    if let more @ 1.. = all.len().saturating_sub(MOST_NAMED) {
+        out += &format!("  so are {}\n", numbered(more, "other variable"));
+    }
     out
 }
 
