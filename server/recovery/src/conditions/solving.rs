@@ -59,9 +59,9 @@ impl Solving {
 
     /// The powers over what was before the rung, if contacts before the element
     /// see one variable at different moments: of what contacts see its
-    /// conditions could not speak. A coil's own variable is as its contacts see
-    /// it, since [`seen`](Self::seen) tells what that is; `whole` are the
-    /// powers in which it is not.
+    /// conditions could not speak. A coil's `own` variable does not count and is
+    /// as its contacts see it, since [`seen`](Self::seen) tells what that is;
+    /// `whole` are the powers in which it is not.
     pub(super) fn since(
         &self,
         network: &Network,
@@ -168,11 +168,15 @@ pub(crate) fn changing(network: &Network) -> BTreeMap<&Name, Vec<NodeIndex>> {
 }
 
 /// Whether contacts that lead to an element see one variable at different
-/// moments.
+/// moments, and not the one that it writes if it is a coil.
 pub(crate) fn sees_several_moments(network: &Network, element: NodeIndex) -> bool {
+    let own = match &network.element(element).kind {
+        ElementKind::Coil(coil) => Some(&coil.operand.name),
+        _ => None,
+    };
     let contacts = moments(network, leading_to(network, element).into_iter());
-    let mut all = contacts.values();
-    all.any(|seen| seen.iter().any(|(_, before)| *before != seen[0].1))
+    let mut others = contacts.iter().filter(|(name, _)| Some(**name) != own);
+    others.any(|(_, seen)| seen.iter().any(|(_, before)| *before != seen[0].1))
 }
 
 /// The elements that lead to one, in their order.

@@ -3,8 +3,8 @@
 use std::collections::{BTreeMap, HashMap};
 use std::ops::Range;
 
-use ladder::{ContactKind, ElementKind, Program, flow};
-use logic::Name;
+use ladder::{Class, ContactKind, ElementKind, Program, flow};
+use logic::{Datum, Name};
 use petgraph::graph::NodeIndex;
 
 use crate::conditions::{changing, leading_to, sees_several_moments};
@@ -195,6 +195,12 @@ impl<'p> Order<'p> {
     pub(super) fn readings(&self, name: &Name, reader: &Reader) -> Vec<Place> {
         let known = reader.reads.get(name).cloned();
         known.unwrap_or_else(|| vec![reader.place])
+    }
+
+    /// Whether a name is that of a number that never changes.
+    pub(super) fn is_constant(&self, name: &str) -> bool {
+        let declared = self.program.declarations.find(name);
+        Datum::constant(name).is_some() || declared.is_some_and(|it| it.class == Class::Constant)
     }
 
     /// Where a variable is written, as a whole or in part; an error if that is

@@ -55,14 +55,15 @@ impl<'a> Seen<'a> {
             .collect();
         let machine = Machine::new(&analysis.program);
         let mut atoms = analysis.conditions.atoms.clone();
+        // A line end keeps these apart from all that a program can name.
         let before: HashMap<AtomId, AtomId> = variables
             .iter()
             .map(|it| {
-                let name = format!("{} before the scan", it.name).into();
+                let name = format!("{}\nbefore the scan", it.name).into();
                 (it.atom, atoms.add_variable(&name))
             })
             .collect();
-        let first = atoms.add_variable(&"the first scan".into());
+        let first = atoms.add_variable(&"\nthe first scan".into());
         let on = variables.iter().filter(|it| machine.is_on(&it.name));
         let mut seen = Self {
             atoms,
@@ -331,7 +332,9 @@ impl<'a> Seen<'a> {
         for name in names_in(&Expr::Atom(atom.clone())) {
             let is_late = match self.order.writings(&name) {
                 Err(()) => return Err(Unsaid::Repeated),
-                Ok(places) if places.is_empty() => continue,
+                Ok(_) if self.order.is_constant(&name) => continue,
+                // What nothing writes comes from the plant, in this scan.
+                Ok(places) if places.is_empty() => false,
                 Ok(places) => {
                     let readings = self.order.readings(&name, reader);
                     let pairs = || {
@@ -346,7 +349,7 @@ impl<'a> Seen<'a> {
                 }
             };
             if late.is_some_and(|late| late != is_late) {
-                return Err(Unsaid::Between(name));
+                return Err(Unsaid::Mixed(name));
             }
             late = Some(is_late);
         }

@@ -16,6 +16,8 @@ pub enum Unsaid {
     Edge(Name),
     /// One rung looks at it while it is being written.
     Between(Name),
+    /// It compares a number of this scan with one of the last.
+    Mixed(Name),
     /// A box or a calculation writes it.
     Written,
 }
@@ -32,6 +34,9 @@ impl Unsaid {
             }
             Self::Between(name) => {
                 format!("it sees `{name}` while other rungs are still writing it")
+            }
+            Self::Mixed(name) => {
+                format!("it compares `{name}` with a number of another scan")
             }
             Self::Written => "a box or a calculation writes it too".into(),
         }
