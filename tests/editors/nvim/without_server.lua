@@ -64,7 +64,7 @@ t.test('the command completes its subcommands and what they take', function()
     return vim.fn.getcompletion(line, 'cmdline')
   end
   t.equal(complete('Gradus con'), { 'conditions', 'convert' })
-  t.equal(complete('Gradus convert '), { 'none', 'handover', 'all' })
+  t.equal(complete('Gradus convert '), { 'none', 'handover', 'witnessed', 'all' })
   t.equal(complete('Gradus s'), { 'scan', 'search', 'simulate', 'spec' })
   t.equal(complete('Gradus scan '), { 'off' })
   t.equal(complete('Gradus spec '), {})
