@@ -110,6 +110,29 @@ rung: up$3 -> running
 }
 
 #[test]
+fn what_a_condition_supposes_is_said_with_the_rung_that_may_belie_it() {
+    let mut client = client();
+    let text = "\
+rung: ready -> set alarm
+rung: start -> ready
+rung: /ready -> reset $0alarm
+";
+    let marked = client.open("twice.ladder", text);
+    let at = marked.position(0, false);
+    let (markup, _) = hover_at(&mut client, "twice.ladder", at).expect("a hover");
+    let supposed =
+        "supposes  ready at rest: rung 1 of main writes it between contacts that see it\n";
+    assert!(markup.value.contains(supposed), "{}", markup.value);
+    assert!(
+        markup
+            .value
+            .contains("[at rest](gradus-explain:/at-rest.md)"),
+        "{}",
+        markup.value
+    );
+}
+
+#[test]
 fn a_client_without_markdown_is_shown_plain_text() {
     let (kind, text) = shown(Profile::Eglot, "(s + v", "1) *").expect("a hover");
     assert_eq!(kind, MarkupKind::PlainText);

@@ -28,8 +28,35 @@ pub struct Coil<'a> {
     pub interlocks: Vec<Name>,
     /// What unknown boxes do to it.
     pub opaque: Vec<String>,
+    /// Variables that its conditions take to be at rest.
+    pub at_rest: Vec<AtRest<'a>>,
     /// Where coils write it, in the order of the source.
     pub writes: Vec<Drawn<'a>>,
+}
+
+/// A variable that conditions take to be at rest, though a rung writes it
+/// between contacts that read it.
+pub struct AtRest<'a> {
+    /// The variable.
+    pub name: Name,
+    /// The first such rung, and its routine; `None` if nobody knows which is
+    /// the first, since rungs are solved several times in a scan.
+    pub written: Option<(&'a Routine, &'a Rung)>,
+}
+
+impl AtRest<'_> {
+    /// What is supposed, in words.
+    pub fn in_words(&self) -> String {
+        let by = match self.written {
+            Some((routine, rung)) if routine.scope.is_empty() => format!("rung {}", rung.number),
+            Some((routine, rung)) => format!("rung {} of {}", rung.number, routine.scope),
+            None => "a rung".to_owned(),
+        };
+        format!(
+            "{} at rest: {by} writes it between contacts that see it",
+            self.name
+        )
+    }
 }
 
 /// The four conditions, each as text.
@@ -124,8 +151,22 @@ pub fn coil<'a>(variable: &'a Variable, analysis: &'a Analysis, budget: &Budget)
             .into_iter()
             .map(|atom| conditions.atoms.atom(atom).to_string())
             .collect(),
+        at_rest: at_rest(variable, analysis),
         writes: writes(variable, analysis, &mut words, budget),
     }
+}
+
+fn at_rest<'a>(variable: &Variable, analysis: &'a Analysis) -> Vec<AtRest<'a>> {
+    let routines = &analysis.program.routines;
+    let all = analysis.at_rest(variable).into_iter();
+    all.map(|it| AtRest {
+        name: it.name,
+        written: it.written.and_then(|(routine, rung)| {
+            let routine = routines.get(routine)?;
+            Some((routine, routine.rungs.get(rung)?))
+        }),
+    })
+    .collect()
 }
 
 fn four(next: &Function, atom: AtomId, words: &mut Words<'_>) -> Option<Said> {

@@ -67,7 +67,7 @@ pub use actions::{
 };
 pub use change::{Change, Departing, changed_spec};
 pub use changed::{changed, edited};
-pub use coil::{Coil, Drawn, Part, Said, coil, coils, kind_word};
+pub use coil::{AtRest, Coil, Drawn, Part, Said, coil, coils, kind_word};
 pub use completion::{
     Completion, CompletionKind, Completions, complete_in_ladder, complete_in_scenario,
     complete_in_spec,

@@ -54,6 +54,7 @@ terms! {
     StepRegister = "step-register", "step register";
     Interlock = "interlock", "interlock";
     Opaque = "opaque", "opaque";
+    AtRest = "at-rest", "at rest";
     Succession = "succession", "succession";
     Step = "step", "step";
     Transition = "transition", "transition";

@@ -9,6 +9,7 @@ use crate::conditions::{Conditions, Variable, conditions, conditions_after};
 use crate::conversion::Sums;
 use crate::findings::Findings;
 use crate::groups::{Group, groups};
+use crate::order::Order;
 use crate::registers::{Register, registers};
 use crate::states::{States, states};
 use crate::successions::{Comparisons, Sights, Succession, ranked, with_sights};
@@ -35,6 +36,7 @@ pub struct Analysis {
     /// Atoms that the condition of another variable, a timer or a number
     /// depends on.
     read: OnceLock<HashSet<AtomId>>,
+    order: OnceLock<Arc<Order>>,
     /// What conversions have put into words.
     pub(crate) sums: Sums,
 }
@@ -122,6 +124,7 @@ fn analysed(
         earlier,
         budget: budget.clone(),
         read: OnceLock::new(),
+        order: OnceLock::new(),
         sums: Sums::default(),
     }
 }
@@ -267,6 +270,12 @@ impl Analysis {
         self.read
             .get_or_init(|| atoms_read(&self.conditions))
             .contains(&atom)
+    }
+
+    /// When its rungs are solved, and who writes what there.
+    pub(crate) fn order(&self) -> &Order {
+        let order = || Arc::new(Order::new(&self.program));
+        self.order.get_or_init(order)
     }
 
     /// Whether all writes of the variable stand in the definition of a block:

@@ -15,9 +15,12 @@ pub mod conditions;
 pub mod conversion;
 pub mod findings;
 pub mod groups;
+mod moments;
+mod order;
 pub mod registers;
 pub mod simulation;
 pub mod states;
 pub mod successions;
 
 pub use analysis::{Analysis, Anew, analyse, analyse_after};
+pub use moments::AtRest;

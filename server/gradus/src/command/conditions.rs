@@ -32,17 +32,24 @@ interlock is a normally closed contact of another coil that holds a state. What
 an unknown box does is opaque: a variable of its own. The resolved form has the
 conditions of auxiliary coils, such as transition bits, in their place.
 
+A condition `supposes` a variable at rest that is written between contacts which
+see it, in one rung or several: these see different values in a scan in which it
+changes, and the condition says what happens in all others.
+
 JSON:
   {\"file\", \"format\", \"rungs\": [{\"scope\", \"rung\", \"coil\", \"address\",
     \"description\", \"kind\", \"persistent\", \"activation\", \"turns_on\", \"stays_on\",
-    \"deactivation\", \"interlocks\": [], \"opaque\": [], \"guard\", \"solved\",
+    \"deactivation\", \"interlocks\": [], \"opaque\": [],
+    \"at_rest\": [{\"name\", \"scope\", \"rung\"}], \"guard\", \"solved\",
     \"resolved\": {\"activation\", \"turns_on\", \"stays_on\", \"deactivation\"},
     \"too_large\", \"span\": {\"start\", \"end\"}, \"coil_span\": {\"start\", \"end\"}}]}
   One entry for every coil that is drawn, in the order of the source. `kind` is
   plain, negated, set, reset, rising or falling. `guard` is the power at this
   coil alone, `solved` when its rung is solved at all. `resolved` is null where
-  it says nothing new. A condition past the budget is null and `too_large` true.
-  `span` is the rung, `coil_span` the coil, in bytes of the file.
+  it says nothing new. `at_rest` has what the conditions suppose to be so, each
+  with the first rung that writes it in between, null if that is not known. A
+  condition past the budget is null and `too_large` true. `span` is the rung,
+  `coil_span` the coil, in bytes of the file.
 
 Exit status: 1 if the text of the ladder has errors; what was understood is
 answered all the same.

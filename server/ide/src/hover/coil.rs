@@ -7,7 +7,7 @@ use recovery::successions::{Evidence, Succession};
 
 use super::Block;
 use crate::decided::{Decided, Standing};
-use crate::{Coil, Ladder, Part, Spec, Term};
+use crate::{AtRest, Coil, Ladder, Part, Spec, Term};
 
 const TOO_LARGE: &str = "too large to be worked out";
 
@@ -49,6 +49,7 @@ pub(super) fn terms(coil: &Coil<'_>, analysis: &Analysis) -> Vec<Term> {
     let further = [
         (!coil.interlocks.is_empty(), Term::Interlock),
         (!coil.opaque.is_empty(), Term::Opaque),
+        (!coil.at_rest.is_empty(), Term::AtRest),
         (coil.resolved.is_some(), Term::Auxiliary),
         (coil.part == Part::State, Term::Succession),
     ];
@@ -95,6 +96,9 @@ fn conditions(coil: &Coil<'_>) -> Vec<(&'static str, String)> {
     if !coil.opaque.is_empty() {
         fields.push(("opaque", coil.opaque.join(", ")));
     }
+    let labels = std::iter::once("supposes").chain(std::iter::repeat(""));
+    let supposed = coil.at_rest.iter().map(AtRest::in_words);
+    fields.extend(labels.zip(supposed));
     fields
 }
 

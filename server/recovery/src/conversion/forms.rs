@@ -228,7 +228,7 @@ impl Choice<'_> {
             let of = self.seen.of_before(atom).unwrap_or(atom);
             let registers = || {
                 let expr = logic::Expr::Atom(self.seen.atoms.atom(atom).clone());
-                let names = super::seen::names_in(&expr);
+                let names = crate::order::names_in(&expr);
                 let mut registers = self.analysis.registers.iter();
                 registers.any(|register| names.contains(&register.name))
             };

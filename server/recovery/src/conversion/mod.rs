@@ -16,7 +16,6 @@ mod findings;
 mod forms;
 mod interface;
 mod naming;
-mod order;
 mod product;
 mod register;
 mod seen;

@@ -13,10 +13,10 @@ use std::collections::{BTreeSet, HashMap};
 use ladder::scan::Machine;
 use logic::{Atom, AtomId, Atoms, Budget, Expr, Function, Name};
 
-use super::order::{Order, Place, Reader};
 use super::unsaid::Unsaid;
 use crate::Analysis;
 use crate::conditions::{AT_START, Variable, Write, WriteKind, value_after};
+use crate::order::{Order, Place, Reader, names_in};
 
 /// What own variables become in a scan, over atoms that say of which scan they
 /// speak.
@@ -35,7 +35,7 @@ pub(super) struct Seen<'a> {
     writes: HashMap<AtomId, Vec<Known>>,
     between: HashMap<(AtomId, usize), Result<Function, Unsaid>>,
     machine: Machine<'a>,
-    order: Order<'a>,
+    order: &'a Order,
     budget: Budget,
 }
 
@@ -44,7 +44,7 @@ type Known = (Place, Result<Write, Unsaid>);
 
 impl<'a> Seen<'a> {
     pub(super) fn new(analysis: &'a Analysis, budget: &Budget) -> Self {
-        let order = Order::new(&analysis.program);
+        let order = analysis.order();
         // What only rungs write that no scan solves is an input.
         let is_written = |it: &&Variable| {
             let mut writes = it.writes.iter();
@@ -433,28 +433,6 @@ enum Writes {
     None,
     Some(usize),
     All,
-}
-
-/// The variables that an expression names, those in its edges and comparisons
-/// too.
-pub(super) fn names_in(expr: &Expr) -> BTreeSet<Name> {
-    let mut names = BTreeSet::new();
-    expr.each_atom(&mut |atom| match atom {
-        Atom::Variable(name) => {
-            names.insert(name.clone());
-        }
-        Atom::Comparison(it) => {
-            for side in [&it.left, &it.right] {
-                let words = side.split(|c: char| " +-*/()".contains(c));
-                names.extend(words.filter(|it| !it.is_empty()).map(Name::from));
-            }
-        }
-        Atom::Rise(inner) | Atom::Fall(inner) => names.extend(names_in(inner)),
-        Atom::Elapsed { step, .. } => {
-            names.insert(step.clone());
-        }
-    });
-    names
 }
 
 /// An expression with some variables under other names.

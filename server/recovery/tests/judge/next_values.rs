@@ -1,12 +1,14 @@
 //! Next values against a simulated controller: what a variable holds after a
 //! scan.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 use ladder::Program;
 use ladder::scan::Machine;
 use logic::{Atom, Budget};
 use proptest::prelude::*;
+use recovery::analyse;
 use recovery::conditions::{Conditions, Variable, conditions};
 
 use crate::programs::{COILS, INPUTS, Sight, plain, steering};
@@ -42,6 +44,44 @@ fn next_value(variable: &Variable, conditions: &Conditions, situation: &Situatio
         Atom::Variable(name) => situation[&**name],
         other => panic!("nothing in the program makes {other}"),
     })
+}
+
+/// What the contacts see that lead to the coils of `variable`, if none of them
+/// stands on a rung that writes it: what is there before the first rung that
+/// looks at it.
+fn seen(
+    variable: &Variable,
+    conditions: &Conditions,
+    program: &Program,
+    before: &Situation,
+) -> Option<Situation> {
+    let name = |atom| match conditions.atoms.atom(atom) {
+        Atom::Variable(name) => &**name,
+        other => panic!("nothing in the program makes {other}"),
+    };
+    let mut seen = before.clone();
+    let mut known = BTreeSet::from([&*variable.name]);
+    for write in &variable.writes {
+        let at = write.place.rung;
+        let here = scanned(&up_to(program, at), before);
+        let network = &program.routines[0].rungs[at].network;
+        // A contact that no power can reach sees nothing.
+        let guard = write.guard.as_ref().expect("small programs have answers");
+        let reads: BTreeSet<&str> = guard.support().iter().map(|it| name(*it)).collect();
+        let writes = network.elements().flat_map(|(_, it)| it.kind.writes());
+        if writes
+            .into_iter()
+            .any(|it| it.name != variable.name && reads.contains(&*it.name))
+        {
+            return None;
+        }
+        for (name, value) in &mut seen {
+            if reads.contains(name) && known.insert(name) {
+                *value = here[name];
+            }
+        }
+    }
+    Some(seen)
 }
 
 /// The place in the main routine of the only rung that writes `variable`.
@@ -95,6 +135,26 @@ proptest! {
             let Some(rung) = only_writer(variable) else { continue };
             let seen = scanned(&up_to(&program, rung), &before);
             let next = next_value(variable, &conditions, &seen);
+            prop_assert_eq!(next, after[&*variable.name], "{}", shown(variable, &program, &before));
+        }
+    }
+
+    #[test]
+    fn where_several_rungs_write_it_holds_if_nothing_is_supposed_to_rest(
+        sketch in plain(),
+        number in 0..256_usize,
+    ) {
+        let program = Arc::new(sketch.build(Sight::Anything));
+        let analysis = analyse(&program, &Budget::default());
+        let before = situations().nth(number).expect("one of 256");
+        let after = scanned(&program, &before);
+        for variable in &analysis.conditions.variables {
+            if !analysis.at_rest(variable).is_empty() {
+                continue;
+            }
+            let seen = seen(variable, &analysis.conditions, &program, &before);
+            let Some(seen) = seen else { continue };
+            let next = next_value(variable, &analysis.conditions, &seen);
             prop_assert_eq!(next, after[&*variable.name], "{}", shown(variable, &program, &before));
         }
     }

@@ -5,7 +5,7 @@ use serde_json::{Value, json as value};
 use source::Span;
 
 use crate::program::Ladder;
-use ide::{Coil, Drawn, Said, kind_word};
+use ide::{AtRest, Coil, Drawn, Said, kind_word};
 
 /// All coils in one document, in the order of the source.
 pub fn json(ladder: &Ladder, coils: &[Coil<'_>]) -> Value {
@@ -42,12 +42,21 @@ fn entry(coil: &Coil<'_>, write: &Drawn<'_>) -> Value {
         "deactivation": said.map(|it| &it.deactivation),
         "interlocks": coil.interlocks.iter().map(|name| &**name).collect::<Vec<_>>(),
         "opaque": coil.opaque,
+        "at_rest": coil.at_rest.iter().map(at_rest).collect::<Vec<_>>(),
         "guard": write.guard,
         "solved": write.solved,
         "resolved": coil.resolved.as_ref().map(four),
         "too_large": !is_whole,
         "span": bytes(write.rung.span),
         "coil_span": bytes(write.span),
+    })
+}
+
+fn at_rest(it: &AtRest<'_>) -> Value {
+    value!({
+        "name": &*it.name,
+        "scope": it.written.map(|(routine, _)| &*routine.scope),
+        "rung": it.written.map(|(_, rung)| rung.number),
     })
 }
 

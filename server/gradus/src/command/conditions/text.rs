@@ -35,6 +35,10 @@ pub fn block(coil: &Coil<'_>, paint: Paint) -> String {
     if !coil.opaque.is_empty() {
         field(&mut out, "opaque", &coil.opaque.join(", "), paint);
     }
+    for (nth, at_rest) in coil.at_rest.iter().enumerate() {
+        let name = if nth == 0 { "supposes" } else { "" };
+        field(&mut out, name, &at_rest.in_words(), paint);
+    }
     if let Some(resolved) = &coil.resolved {
         out += "  with auxiliary coils resolved\n";
         conditions(&mut out, Some(resolved), coil.part, paint);

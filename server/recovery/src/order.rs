@@ -1,19 +1,20 @@
 //! When in a scan the rungs are solved, and who writes what there.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::ops::Range;
+use std::sync::Arc;
 
 use ladder::{Class, ContactKind, ElementKind, Program, flow};
-use logic::{Datum, Name};
+use logic::{Atom, Datum, Expr, Name};
 use petgraph::graph::NodeIndex;
 
 use crate::conditions::{changing, leading_to, sees_several_moments};
 
 /// A moment of the scan: which visit to a rung, and which element of it.
-pub(super) type Place = (usize, usize);
+pub(crate) type Place = (usize, usize);
 
 /// A rung, by its routine and its place there.
-type Rung = (usize, usize);
+pub(crate) type Rung = (usize, usize);
 
 /// Calls, jumps and zones in each other beyond which nobody looks.
 const DEEPEST: usize = 64;
@@ -22,9 +23,12 @@ const DEEPEST: usize = 64;
 const MOST_STRETCHES: usize = 64;
 
 /// When the rungs of a program are solved.
-pub(super) struct Order<'p> {
-    program: &'p Program,
+#[derive(Debug)]
+pub(crate) struct Order {
+    program: Arc<Program>,
     execution: flow::Execution,
+    /// The rungs by the ranks of the visits to them.
+    ranked: Vec<Rung>,
     /// The visits to a rung: one, or one for each stretch of it, or several.
     visits: HashMap<Rung, Vec<Visit>>,
     /// Where a variable is written; none for what is solved several times.
@@ -37,7 +41,7 @@ pub(super) struct Order<'p> {
 
 /// A visit: the order it is in, its place there and among all, and the elements
 /// that are solved.
-#[derive(Clone)]
+#[derive(Clone, Debug)]
 struct Visit {
     order: usize,
     at: usize,
@@ -49,24 +53,24 @@ struct Visit {
 type Reads = HashMap<Name, Vec<Place>>;
 
 /// Something that is solved, and what decides whether it is.
-pub(super) struct Reader {
+pub(crate) struct Reader {
     place: Place,
     /// What is read on the way to it, and to the elements that decide whether it
     /// is solved.
     reads: Reads,
 }
 
-impl<'p> Order<'p> {
-    pub(super) fn new(program: &'p Program) -> Self {
+impl Order {
+    pub(crate) fn new(program: &Arc<Program>) -> Self {
         let mut order = Self {
-            program,
+            program: Arc::clone(program),
             execution: flow::execution(program),
+            ranked: Vec::new(),
             visits: HashMap::new(),
             writings: HashMap::new(),
             wholes: HashMap::new(),
             parts: HashMap::new(),
         };
-        let mut rank = 0;
         for number in 0..=order.execution.definitions.len() {
             for at in 0..order.visits_of(number).visits.len() {
                 let visit = &order.visits_of(number).visits[at];
@@ -75,11 +79,11 @@ impl<'p> Order<'p> {
                 let visit = Visit {
                     order: number,
                     at,
-                    rank,
+                    rank: order.ranked.len(),
                     elements,
                 };
                 order.visits.entry(rung).or_default().push(visit);
-                rank += 1;
+                order.ranked.push(rung);
             }
         }
         order.find_writings();
@@ -121,9 +125,14 @@ impl<'p> Order<'p> {
         }
     }
 
+    /// The rung that is solved at a moment.
+    pub(crate) fn rung(&self, place: Place) -> Option<Rung> {
+        self.ranked.get(place.0).copied()
+    }
+
     /// When an element is solved; none if it never is, an error if it is solved
     /// several times.
-    pub(super) fn of(&self, rung: Rung, element: usize) -> Option<Result<usize, ()>> {
+    pub(crate) fn of(&self, rung: Rung, element: usize) -> Option<Result<usize, ()>> {
         let visit = match only_one(self.visits.get(&rung)?, element)? {
             Ok(visit) => visit,
             Err(()) => return Some(Err(())),
@@ -138,7 +147,7 @@ impl<'p> Order<'p> {
     }
 
     /// What is solved at `place` of a rung, and only there.
-    pub(super) fn reader(&self, place: Place, rung: Rung) -> Reader {
+    pub(crate) fn reader(&self, place: Place, rung: Rung) -> Reader {
         let mut reads = self.reads(rung, place.1);
         let visits = self.visits.get(&rung).map_or(&[][..], Vec::as_slice);
         if let Some(Ok(visit)) = only_one(visits, place.1) {
@@ -192,20 +201,20 @@ impl<'p> Order<'p> {
 
     /// Where `reader` looks at a variable; where it stands itself if nothing
     /// on the way to it does.
-    pub(super) fn readings(&self, name: &Name, reader: &Reader) -> Vec<Place> {
+    pub(crate) fn readings(&self, name: &Name, reader: &Reader) -> Vec<Place> {
         let known = reader.reads.get(name).cloned();
         known.unwrap_or_else(|| vec![reader.place])
     }
 
     /// Whether a name is that of a number that never changes.
-    pub(super) fn is_constant(&self, name: &str) -> bool {
+    pub(crate) fn is_constant(&self, name: &str) -> bool {
         let declared = self.program.declarations.find(name);
         Datum::constant(name).is_some() || declared.is_some_and(|it| it.class == Class::Constant)
     }
 
     /// Where a variable is written, as a whole or in part; an error if that is
     /// in a rung that is solved several times.
-    pub(super) fn writings(&self, name: &Name) -> Result<Vec<Place>, ()> {
+    pub(crate) fn writings(&self, name: &Name) -> Result<Vec<Place>, ()> {
         let known = wholes(name).filter_map(|whole| self.wholes.get(whole));
         let known = known.chain(self.writings.get(name));
         let known = known.chain(self.parts.get(name)).flatten();
@@ -236,4 +245,26 @@ fn wholes(name: &str) -> impl Iterator<Item = &str> {
             .filter(|it| !it.is_empty());
         Some(whole)
     })
+}
+
+/// The variables that an expression names, those in its edges and comparisons
+/// too.
+pub(crate) fn names_in(expr: &Expr) -> BTreeSet<Name> {
+    let mut names = BTreeSet::new();
+    expr.each_atom(&mut |atom| match atom {
+        Atom::Variable(name) => {
+            names.insert(name.clone());
+        }
+        Atom::Comparison(it) => {
+            for side in [&it.left, &it.right] {
+                let words = side.split(|c: char| " +-*/()".contains(c));
+                names.extend(words.filter(|it| !it.is_empty()).map(Name::from));
+            }
+        }
+        Atom::Rise(inner) | Atom::Fall(inner) => names.extend(names_in(inner)),
+        Atom::Elapsed { step, .. } => {
+            names.insert(step.clone());
+        }
+    });
+    names
 }
