@@ -70,6 +70,7 @@ pub(crate) fn explore(netlist: &Netlist, meter: &mut Meter) -> Result<Explored, 
             *word = manner.next(&mut random);
         }
         let mut allowed = solved(netlist, &mut lanes, &inputs);
+        meter.look()?;
         for _ in 0..REPAIRS {
             if allowed == ALL {
                 break;
@@ -80,6 +81,7 @@ pub(crate) fn explore(netlist: &Netlist, meter: &mut Meter) -> Result<Explored, 
         }
         runs.inputs.push(inputs.clone());
         explored.prints.add(0, &lanes, &allowed);
+        meter.look()?;
         for (latch, seen) in netlist.latches.iter().zip(&mut explored.latches) {
             seen.push(zip(&lanes.value(latch.signal), &allowed, |a, b| a & b));
         }
@@ -108,6 +110,7 @@ pub(crate) fn explore(netlist: &Netlist, meter: &mut Meter) -> Result<Explored, 
         if scan % BATCH == BATCH - 1 {
             meter.look()?;
             let now = explored.prints.kinds();
+            meter.look()?;
             quiet = if now > kinds { 0 } else { quiet + 1 };
             kinds = now;
             if quiet == enough {
@@ -135,6 +138,7 @@ impl Explored {
                 lanes.set(latch.signal, seen[scan]);
             }
             lanes.solve();
+            meter.look()?;
             self.prints.add(known, &lanes, allowed);
         }
         Ok(())

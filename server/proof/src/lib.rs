@@ -49,6 +49,7 @@
 //!
 //! `docs/proof.md` tells how the engines work and where they come from.
 
+mod aside;
 mod bounded;
 mod check;
 mod classes;
@@ -84,6 +85,7 @@ mod solver;
 mod supposed;
 mod trace;
 
+pub use aside::free_aside;
 pub use check::check;
 pub use compare::{Comparison, compare};
 pub use cone::{Cone, Touched};

@@ -4,6 +4,7 @@ use batsat::{Callbacks, ClauseKind, Lit, Solver as Sat, SolverInterface, SolverO
 use logic::Cancel;
 
 use crate::Signal;
+use crate::aside::{LARGE, free_aside};
 use crate::graph::Graph;
 use crate::limits::{Meter, STRIDE, Why};
 
@@ -14,10 +15,6 @@ const PER_CONFLICT: u64 = 2_000;
 /// What a decision counts for as long as the literals that follow from it are
 /// not counted: the solver tells their number only when it is done.
 const PER_DECISION: u64 = 200;
-
-/// Searches of so many variables are freed where nobody waits for it: they keep two
-/// lists for each.
-const LARGE: usize = 50_000;
 
 /// Asks whether signals of a graph can be 1 together.
 ///
@@ -45,13 +42,11 @@ pub(crate) enum Answer {
 
 impl Drop for Solver {
     fn drop(&mut self) {
-        if self.variables.len() < LARGE {
-            return;
+        // A search keeps two lists for each variable.
+        let parts = self.variables.len();
+        if parts >= LARGE {
+            free_aside(std::mem::replace(&mut self.sat, fresh()), parts);
         }
-        let sat = std::mem::replace(&mut self.sat, fresh());
-        let freeing = std::thread::Builder::new().name("freeing a search".into());
-        // Where no thread can be had, it is freed here.
-        let _ = freeing.spawn(move || drop(sat));
     }
 }
 

@@ -52,6 +52,7 @@ impl Frame {
         scans: usize,
         bounds: &Bounds,
     ) -> Result<Self, Refusal> {
+        bounds.is_wanted()?;
         let mut netlist = Netlist::default();
         let inputs = scan
             .inputs()
@@ -63,6 +64,7 @@ impl Frame {
             .iter()
             .map(|it| netlist.latch(it.name.clone(), it.initial));
         let latches: Vec<Signal> = latches.collect();
+        bounds.look(&netlist)?;
         // Time passes in the first scan only.
         let passes = |source: &Source| matches!(source, Source::Event(_) | Source::Elapsed { .. });
         let sources = evolved.inputs.sources.iter().zip(&inputs);

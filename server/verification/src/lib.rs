@@ -56,6 +56,7 @@ mod frame;
 pub mod inputs;
 pub mod program;
 mod ranges;
+mod ready;
 mod refusal;
 mod rules;
 mod run;

@@ -1,6 +1,5 @@
 //! A ladder and its spec as one transition system, and what is asked of it.
 
-use grafcet::Spec;
 use logic::{Cancel, Name};
 use proof::{Netlist, Signal};
 
@@ -9,6 +8,7 @@ use crate::chart::{self, Evolved};
 use crate::frame::Frame;
 use crate::inputs::Source;
 use crate::program::{Bounds, Followed};
+use crate::ready::Ready;
 use crate::refusal::Refusal;
 use crate::rules::{Atoms, Steps, names_of};
 use crate::value::Value;
@@ -40,15 +40,17 @@ pub(crate) struct System {
 /// The system of a ladder and a spec, through so many evolutions and scans.
 pub(crate) fn system(
     followed: &Followed,
-    spec: &Spec,
+    ready: &Ready<'_>,
     timing: Timing,
     [evolutions, settling]: [usize; 2],
     bounds: &Bounds,
 ) -> Result<System, Refusal> {
-    let mut evolved = chart::follow(spec, Some(followed), evolutions, bounds)?;
+    let spec = ready.spec;
+    let mut evolved = chart::follow_ready(ready, Some(followed), evolutions, bounds)?;
     let (mut outputs, mut missing, mut numbers) = (Vec::new(), Vec::new(), Vec::new());
     let mut differ = Vec::new();
     for name in evolved.outputs().to_vec() {
+        bounds.is_wanted()?;
         let own = followed.output(&name, &mut evolved.netlist);
         let Some(own) = own else {
             missing.push(name);

@@ -3,15 +3,16 @@
 use std::collections::HashSet;
 
 use grafcet::Spec;
-use grafcet::evolution::Machine;
 use ladder::{Class, Program};
 use logic::Name;
 use proof::{
-    Limits, Netlist, Proof, Signal, Status, Verdict as Found, Why, check, deadlock, simplified,
+    Limits, Netlist, Proof, Signal, Status, Verdict as Found, Why, check, deadlock, free_aside,
+    simplified,
 };
 
 use crate::answer::{Difference, Reason, Timing, Verdict, Verification, What};
 use crate::program::{self, Bounds, Followed};
+use crate::ready::Ready;
 use crate::refusal::Refusal;
 use crate::run::{End, Run};
 use crate::system::{RESTLESS, System, UNSTABLE, system};
@@ -42,7 +43,13 @@ pub fn verify(
     limits: &Limits,
 ) -> Result<Verification, Refusal> {
     let mut verifier = Verifier::new(program, spec, timing, limits)?;
-    verifier.run()
+    let verification = verifier.run();
+    let Verifier {
+        followed, ready, ..
+    } = verifier;
+    let parts = followed.netlist.size();
+    free_aside((followed, ready.machine), parts);
+    verification
 }
 
 /// A ladder with a spec beside it, ready to be asked about.
@@ -53,8 +60,7 @@ struct Verifier<'v> {
     limits: &'v Limits,
     bounds: Bounds,
     followed: Followed,
-    /// The grafcet before its first scan.
-    machine: Machine,
+    ready: Ready<'v>,
     evolutions: usize,
     settling: usize,
 }
@@ -80,7 +86,8 @@ impl<'v> Verifier<'v> {
             work: usize::try_from(limits.steps / 50).unwrap_or(usize::MAX),
             cancel: limits.cancel.clone(),
         };
-        let followed = program::follow(program, Some(spec), &bounds)?;
+        let ready = Ready::new(spec, &bounds)?;
+        let followed = program::follow_beside(program, Some(&ready), &bounds)?;
         bounds.is_wanted()?;
         Ok(Self {
             program,
@@ -88,7 +95,7 @@ impl<'v> Verifier<'v> {
             timing,
             limits,
             followed,
-            machine: Machine::new(&spec.grafcet),
+            ready,
             bounds,
             evolutions: 2,
             settling: 3,
@@ -167,7 +174,7 @@ impl<'v> Verifier<'v> {
     fn system(&self) -> Result<System, Refusal> {
         system(
             &self.followed,
-            self.spec,
+            &self.ready,
             self.timing,
             [self.evolutions, self.settling],
             &self.bounds,
@@ -332,7 +339,7 @@ impl<'v> Verifier<'v> {
         system: &'s System,
         signals: &proof::Trace,
     ) -> ((Trace, End), Run<'s>) {
-        let machine = self.machine.clone();
+        let machine = self.ready.machine.clone();
         let shown = [system.outputs.as_slice(), system.watched.as_slice()];
         let (timing, cancel) = (self.timing, &self.limits.cancel);
         let mut run = Run::new(self.program, machine, &self.followed, shown, timing, cancel);

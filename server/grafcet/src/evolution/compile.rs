@@ -16,22 +16,33 @@ use super::net::{
 };
 use super::publishing;
 use super::term::{Operand, Term};
-use crate::{Action, ActionKind, Chart, Grafcet, PartKind, Situation, StepKind, Trigger};
+use crate::{Action, ActionKind, Grafcet, PartKind, Situation, StepKind, Trigger};
 
-/// The grafcet ready to run, its instances written out.
-pub(super) fn compile(grafcet: &Grafcet) -> Net {
+/// The grafcet ready to run, its instances written out, unless `look` has an
+/// error meanwhile.
+pub(super) fn compile<E>(
+    grafcet: &Grafcet,
+    mut look: impl FnMut() -> Result<(), E>,
+) -> Result<Net, E> {
     let grafcet = &grafcet.instantiated();
+    look()?;
     let mut compiler = Compiler::new(grafcet);
+    look()?;
     compiler.parts();
     let is_continuous = |it: &&Action| matches!(it.kind, ActionKind::Continuous { .. });
     for (part, (_, chart)) in grafcet.charts().enumerate() {
-        compiler.transitions(chart, part.checked_sub(1));
+        for transition in &chart.transitions {
+            look()?;
+            compiler.transition(transition, part.checked_sub(1));
+        }
         for action in chart.actions.iter().filter(|it| !is_continuous(it)) {
+            look()?;
             compiler.action(action);
         }
     }
     compiler.net.sampled_first = compiler.net.edges.len();
     for action in grafcet.actions().filter(is_continuous) {
+        look()?;
         compiler.action(action);
     }
     compiler
@@ -41,6 +52,7 @@ pub(super) fn compile(grafcet: &Grafcet) -> Net {
     let Compiler {
         mut net, outputs, ..
     } = compiler;
+    look()?;
     publishing::arrange(&mut net, outputs);
     net.is_own = net.is_continuous.clone();
     for action in &net.stored {
@@ -49,7 +61,7 @@ pub(super) fn compile(grafcet: &Grafcet) -> Net {
     for output in &net.outputs {
         net.is_own[*output] = true;
     }
-    net
+    Ok(net)
 }
 
 struct Compiler<'g> {
@@ -243,25 +255,23 @@ impl<'g> Compiler<'g> {
         found
     }
 
-    fn transitions(&mut self, chart: &Chart, part: Option<usize>) {
-        for transition in &chart.transitions {
-            let from: Option<Vec<usize>> = transition
-                .from
-                .iter()
-                .map(|step| self.net.exit(*self.net.step_names.get(step)?))
-                .collect();
-            let to = transition.to.iter();
-            let to = to.filter_map(|step| self.net.entry(*self.net.step_names.get(step)?));
-            let to = to.collect();
-            let receptivity = self.condition(&transition.receptivity);
-            self.net.transitions.push(Transition {
-                name: transition.name.clone(),
-                from,
-                to,
-                receptivity,
-                part,
-            });
-        }
+    fn transition(&mut self, transition: &crate::Transition, part: Option<usize>) {
+        let from: Option<Vec<usize>> = transition
+            .from
+            .iter()
+            .map(|step| self.net.exit(*self.net.step_names.get(step)?))
+            .collect();
+        let to = transition.to.iter();
+        let to = to.filter_map(|step| self.net.entry(*self.net.step_names.get(step)?));
+        let to = to.collect();
+        let receptivity = self.condition(&transition.receptivity);
+        self.net.transitions.push(Transition {
+            name: transition.name.clone(),
+            from,
+            to,
+            receptivity,
+            part,
+        });
     }
 
     fn action(&mut self, action: &Action) {

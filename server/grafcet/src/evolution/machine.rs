@@ -1,4 +1,5 @@
 use std::collections::HashMap;
+use std::convert::Infallible;
 use std::sync::Arc;
 
 use logic::{Datum, Name};
@@ -66,7 +67,14 @@ impl Machine {
     /// The grafcet in its initial situation, before its first scan; all
     /// variables are 0.
     pub fn new(grafcet: &Grafcet) -> Self {
-        let net = compile(grafcet);
+        let Ok(machine) = Self::try_new(grafcet, || Ok::<(), Infallible>(()));
+        machine
+    }
+
+    /// The same, stopped by an error of `look`, which is called again and again
+    /// meanwhile.
+    pub fn try_new<E>(grafcet: &Grafcet, look: impl FnMut() -> Result<(), E>) -> Result<Self, E> {
+        let net = compile(grafcet, look)?;
         let mut state = State {
             active: vec![false; net.steps.len()],
             since: vec![0; net.steps.len()],
@@ -76,13 +84,13 @@ impl Machine {
             obeyed: vec![None; net.parts.len()],
         };
         hierarchy::begin(&net, &mut state);
-        Self {
+        Ok(Self {
             net: Arc::new(net),
             state,
             now: 0,
             scans: 0,
             evolutions: Vec::new(),
-        }
+        })
     }
 
     /// What the machine runs.

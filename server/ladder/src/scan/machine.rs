@@ -1,4 +1,5 @@
 use std::collections::{BTreeSet, HashMap};
+use std::convert::Infallible;
 
 use logic::Name;
 use petgraph::graph::NodeIndex;
@@ -66,9 +67,20 @@ impl<'p> Machine<'p> {
     /// A machine before its first scan: declared variables at their initial
     /// values, all others 0.
     pub fn new(program: &'p Program) -> Self {
+        let Ok(machine) = Self::try_new(program, || Ok::<(), Infallible>(()));
+        machine
+    }
+
+    /// The same, stopped by an error of `look`, which is called again and again
+    /// meanwhile.
+    pub fn try_new<E>(
+        program: &'p Program,
+        mut look: impl FnMut() -> Result<(), E>,
+    ) -> Result<Self, E> {
         let mut state = State::new(program);
         let mut first_scan: Name = "S:FS".into();
         for (_, rung) in program.rungs() {
+            look()?;
             for (_, element) in rung.network.elements() {
                 match &element.kind {
                     ElementKind::Timer(of) => timer::prepare(of, &mut state),
@@ -83,13 +95,14 @@ impl<'p> Machine<'p> {
             }
         }
         let unknown = unknown(program, &state);
+        look()?;
         let root_role = match program.is_only_definitions() {
             true => Role::Definition,
             false => Role::Main,
         };
         let roles = program.routines.iter().map(|routine| routine.role);
         let roots = roles.enumerate().filter(|(_, role)| *role == root_role);
-        Self {
+        Ok(Self {
             roots: roots.map(|(at, _)| at).collect(),
             program,
             layouts: layouts(program).0,
@@ -100,7 +113,7 @@ impl<'p> Machine<'p> {
             scans: 0,
             overran: false,
             unknown,
-        }
+        })
     }
 
     /// Gives a variable a value between two scans. Any variable may be

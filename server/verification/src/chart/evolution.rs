@@ -47,7 +47,7 @@ impl Pass<'_> {
         }
         let mut further = state.clone();
         let changes = self.evolve(&mut further)?;
-        self.publish(state);
+        self.publish(state)?;
         Ok(self.netlist.and(goes_on, changes))
     }
 
@@ -84,6 +84,7 @@ impl Pass<'_> {
             let all = [is_enabled, !is_held, holds];
             clears.push(self.netlist.all(&all));
         }
+        self.look()?;
         let before = state.active.clone();
         let mut left = vec![Vec::new(); before.len()];
         let mut entered = vec![Vec::new(); before.len()];
@@ -111,6 +112,7 @@ impl Pass<'_> {
         };
         let all = [(&before, &state.active), (&obeyed, &state.obeyed)];
         for (before, after) in all {
+            self.look()?;
             for (before, after) in before.iter().zip(after) {
                 differ.push(self.netlist.xor(*before, *after));
             }
@@ -160,10 +162,11 @@ impl Pass<'_> {
     }
 
     /// Publishes every output that has continuous actions.
-    fn publish(&mut self, state: &mut State) {
+    fn publish(&mut self, state: &mut State) -> Result<(), Refusal> {
         let net = self.net;
         self.edges.fill(Signal::FALSE);
         for circle in &net.continuous {
+            self.look()?;
             let places = circle
                 .iter()
                 .flat_map(|output| output.edges.iter().copied());
@@ -184,5 +187,6 @@ impl Pass<'_> {
                 state.values[at] = Value::bit(on);
             }
         }
+        Ok(())
     }
 }

@@ -20,7 +20,7 @@ mod storing;
 use std::collections::BTreeMap;
 
 use grafcet::Spec;
-use grafcet::evolution::{Machine, Net};
+use grafcet::evolution::Net;
 use logic::{Datum, Name};
 use proof::{Netlist, Signal};
 
@@ -30,6 +30,7 @@ use crate::domain::Domain;
 use crate::inputs::Inputs;
 use crate::program::{Bounds, Followed};
 use crate::ranges::Ranges;
+use crate::ready::Ready;
 use crate::refusal::Refusal;
 use crate::value::Value;
 
@@ -64,10 +65,18 @@ pub fn follow(
     evolutions: usize,
     bounds: &Bounds,
 ) -> Result<Evolved, Refusal> {
+    follow_ready(&Ready::new(spec, bounds)?, ladder, evolutions, bounds)
+}
+
+/// The same of a grafcet that is ready.
+pub(crate) fn follow_ready(
+    ready: &Ready<'_>,
+    ladder: Option<&Followed>,
+    evolutions: usize,
+    bounds: &Bounds,
+) -> Result<Evolved, Refusal> {
     bounds.is_wanted()?;
-    let start = Machine::new(&spec.grafcet);
-    let net = start.net();
-    bounds.is_wanted()?;
+    let (spec, start, net) = (ready.spec, &ready.machine, ready.net());
     let initial: Vec<bool> = net
         .steps
         .iter()
@@ -92,9 +101,11 @@ pub fn follow(
             unknowns: FIRST_UNKNOWN,
             bounds,
         };
-        let (mut state, latches) = pass.begin(&initial, &domains);
+        let (mut state, latches) = pass.begin(&initial, &domains)?;
         let unstable = pass.scan(&mut state, &latches, evolutions)?;
+        pass.look()?;
         pass.end(&state, &latches);
+        pass.look()?;
         if !learn(&mut domains, &state, net) {
             return Ok(Evolved {
                 netlist: pass.netlist,

@@ -6,6 +6,7 @@ use proof::{Gates, Signal};
 use super::{Domains, Pass};
 use crate::domain::{Domain, Kept};
 use crate::inputs::Source;
+use crate::refusal::Refusal;
 use crate::value::Value;
 
 /// The situation and the values at one moment of a scan.
@@ -47,7 +48,11 @@ impl Latches {
 
 impl Pass<'_> {
     /// The state as a scan finds it.
-    pub(super) fn begin(&mut self, initial: &[bool], domains: &Domains) -> (State, Latches) {
+    pub(super) fn begin(
+        &mut self,
+        initial: &[bool],
+        domains: &Domains,
+    ) -> Result<(State, Latches), Refusal> {
         let net = self.net;
         let first = self.netlist.latch("first scan of the grafcet", true);
         self.netlist.set_next(first, Signal::FALSE);
@@ -82,11 +87,14 @@ impl Pass<'_> {
                 latches.kept.push((at, kept[at]));
             }
         }
-        let values = (0..net.variables.len()).map(|at| match net.is_own[at] {
-            true => self.stored_value(at, &domains[at], &mut latches.values),
-            false => self.read_from_outside(at),
-        });
-        let values = values.collect();
+        let mut values = Vec::with_capacity(net.variables.len());
+        for (at, domain) in domains.iter().enumerate() {
+            self.look()?;
+            values.push(match net.is_own[at] {
+                true => self.stored_value(at, domain, &mut latches.values),
+                false => self.read_from_outside(at),
+            });
+        }
         self.begin_times(&mut latches.elapsed);
         let state = State {
             fresh: vec![first; active.len()],
@@ -96,7 +104,7 @@ impl Pass<'_> {
             looked_at,
             obeyed,
         };
-        (state, latches)
+        Ok((state, latches))
     }
 
     fn stored_value(

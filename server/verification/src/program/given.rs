@@ -6,6 +6,9 @@ use ladder::scan::Machine;
 use ladder::{Class, ElementKind, Program};
 use logic::{Datum, Name};
 
+use super::Bounds;
+use crate::refusal::Refusal;
+
 /// What the program says before anything is followed.
 #[derive(Debug, Default)]
 pub(super) struct Given {
@@ -22,10 +25,15 @@ pub(super) struct Given {
 
 impl Given {
     /// What is said in the declarations, and which instances are shared.
-    pub(super) fn of(program: &Program, machine: &Machine<'_>) -> Self {
+    pub(super) fn of(
+        program: &Program,
+        machine: &Machine<'_>,
+        bounds: &Bounds,
+    ) -> Result<Self, Refusal> {
         let initial = machine.stored();
         let initial: HashMap<Name, Datum> =
             initial.map(|(name, value)| (name.clone(), value)).collect();
+        bounds.is_wanted()?;
         let constants = program.declarations.iter().filter_map(|declaration| {
             let is_constant = declaration.class == Class::Constant;
             let value = initial.get(&declaration.name).filter(|_| is_constant)?;
@@ -35,6 +43,7 @@ impl Given {
         let mut kinds = HashMap::new();
         let mut mixed = HashSet::new();
         for (_, rung) in program.rungs() {
+            bounds.is_wanted()?;
             for (_, element) in rung.network.elements() {
                 let (name, kind) = match &element.kind {
                     ElementKind::Timer(it) => (&it.instance.name, format!("{:?}", it.kind)),
@@ -51,12 +60,12 @@ impl Given {
             let width = width_of(declaration.data_type.as_deref()?)?;
             Some((declaration.name.clone(), width))
         });
-        Self {
+        Ok(Self {
             initial,
             constants,
             mixed,
             widths: widths.collect(),
-        }
+        })
     }
 }
 

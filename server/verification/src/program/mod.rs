@@ -20,7 +20,7 @@ mod store;
 
 use std::collections::{BTreeSet, HashMap};
 
-use grafcet::{Spec, evolution};
+use grafcet::Spec;
 use ladder::flow::{Guard, GuardSet, Order, execution};
 use ladder::scan::{Kind, Machine, Names, bit_of_word};
 use ladder::{ElementKind, Program, Routine};
@@ -37,6 +37,7 @@ use self::store::{Held, Store};
 use crate::compared;
 use crate::inputs::Inputs;
 use crate::ranges::Ranges;
+use crate::ready::Ready;
 use crate::refusal::Refusal;
 use crate::value::Value;
 
@@ -107,29 +108,33 @@ pub fn follow(
     spec: Option<&Spec>,
     bounds: &Bounds,
 ) -> Result<Followed, Refusal> {
-    let machine = Machine::new(program);
-    bounds.is_wanted()?;
-    let given = Given::of(program, &machine);
-    bounds.is_wanted()?;
+    let spec = spec.map(|spec| Ready::new(spec, bounds)).transpose()?;
+    follow_beside(program, spec.as_ref(), bounds)
+}
+
+/// The same beside a spec whose grafcet is ready.
+pub(crate) fn follow_beside(
+    program: &Program,
+    spec: Option<&Ready<'_>>,
+    bounds: &Bounds,
+) -> Result<Followed, Refusal> {
+    let machine = Machine::try_new(program, || bounds.is_wanted())?;
+    let given = Given::of(program, &machine, bounds)?;
     let (orders, first_scan) = (orders(program, &machine)?, machine.first_scan());
     let looks_at_first_scan = reads(program, first_scan);
     let mut knowledge = Knowledge::default();
-    let spec = spec.map(|spec| (spec, evolution::Machine::new(&spec.grafcet)));
-    bounds.is_wanted()?;
-    let looked_at = spec
-        .iter()
-        .flat_map(|(spec, machine)| compared::numbers(spec, machine.net()));
-    for (name, constant) in looked_at {
+    let looked_at = spec.map(|it| compared::numbers(it.spec, it.net()));
+    for (name, constant) in looked_at.into_iter().flatten() {
+        bounds.is_wanted()?;
         let name = machine.names().resolved(&name, &|_| None).into_owned();
         match constant {
             Some(constant) => knowledge.compares(&name.into(), constant, false),
             None => knowledge.computes_with(&name.into(), false),
         }
     }
-    let names = spec
-        .iter()
-        .flat_map(|(spec, machine)| compared::names(spec, machine.net()));
-    for name in names {
+    let names = spec.map(|it| compared::names(it.spec, it.net()));
+    for name in names.into_iter().flatten() {
+        bounds.is_wanted()?;
         // Of what both look at, the one may look at bits and the other at the whole.
         let name = machine.names().resolved(&name, &|_| None).into_owned();
         match bit_of_word(&name) {

@@ -30,6 +30,7 @@ use recovery::successions::{Evidence, Sights, Witness};
 
 use crate::Timing;
 use crate::program::{self, Bounds};
+use crate::ready::Ready;
 use crate::refusal::Refusal;
 use crate::system::system;
 use pairs::Pairs;
@@ -78,8 +79,9 @@ pub fn sights(
         ..Spec::default()
     };
     let program = &analysis.program;
-    let followed = program::follow(program, Some(&spec), &bounds)?;
-    let system = system(&followed, &spec, Timing::Scan, [1, 1], &bounds)?;
+    let ready = Ready::new(&spec, &bounds)?;
+    let followed = program::follow_beside(program, Some(&ready), &bounds)?;
+    let system = system(&followed, &ready, Timing::Scan, [1, 1], &bounds)?;
     let mut watch = Watch::new(&Machine::new(program), &followed, system, &pairs);
     let mut confirming = Confirming {
         program,
