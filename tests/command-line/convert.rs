@@ -143,3 +143,38 @@ fn no_spec_however_damaged_makes_it_panic_or_lose_a_line() {
         assert!(after.lines().any(|line| line == cut), "{cut}");
     }
 }
+
+#[test]
+fn of_a_large_plant_a_few_states_are_listed_and_the_others_counted() {
+    let gradus = gradus();
+    let rungs = (0..30).map(|at| {
+        let (before, after) = ((at + 29) % 30, (at + 1) % 30);
+        format!("rung: (q{before}*s{at} + q{at}) * /q{after} -> q{at}\n")
+    });
+    gradus.write("chain.ladder", rungs.collect::<String>());
+    let listed = |accept: &str| {
+        let ended = gradus.run(&[
+            "convert",
+            "chain.ladder",
+            "--accept",
+            accept,
+            "--initial",
+            "q0",
+        ]);
+        assert_eq!(ended.status, Some(0), "{}", ended.aside);
+        ended.answer
+    };
+    let open = listed("none");
+    // Besides the twenty stands the one in which the sequence starts.
+    assert_eq!(open.matches("  open      -> ").count(), 21, "{open}");
+    let rest = "\n9 other states with open suggestions: `gradus suggest` lists them\n";
+    assert!(open.contains(rest), "{open}");
+    // What is decided is all there.
+    let accepted = listed("handover");
+    assert_eq!(
+        accepted.matches("  accepted  -> ").count(),
+        60,
+        "{accepted}"
+    );
+    assert!(!accepted.contains("other state"), "{accepted}");
+}

@@ -12,14 +12,22 @@ use crate::report::printable;
 /// Of many names only so many are listed.
 const MOST_NAMED: usize = 8;
 
+/// Of the states of which nothing is decided only so many are listed.
+const MOST_UNDECIDED: usize = 20;
+
 /// Of the rungs of a variable only so many are listed.
 const MOST_RUNGS: usize = 3;
 
 /// What was accepted, what is open, and what the spec holds now.
 pub fn summary(outcome: &Outcome<'_>, name: &str, state: State, paint: Paint) -> String {
     let mut out = String::new();
-    for state in &outcome.states {
+    let states = shown(&outcome.states);
+    for state in &states {
         of_state(&mut out, state, paint);
+    }
+    if let more @ 1.. = outcome.states.len() - states.len() {
+        let more = numbered(more, "other state");
+        out += &format!("{more} with open suggestions: `gradus suggest` lists them\n\n");
     }
     let (is_sequence, reason) = &outcome.verdict;
     if !is_sequence {
@@ -83,6 +91,28 @@ pub fn inexact(outcome: &Outcome<'_>) -> String {
         out += &format!("  so are {}\n", numbered(more, "other variable"));
     }
     out
+}
+
+/// The states that are listed, in their order: all of which something is decided,
+/// and of the others first those for whose followers more speaks than that they
+/// are possible.
+fn shown<'o, 'a>(states: &'o [OfState<'a>]) -> Vec<&'o OfState<'a>> {
+    let is_decided = |state: &OfState<'_>| {
+        let lists = [&state.written, &state.rejected];
+        state.initial || !state.accepted.is_empty() || lists.iter().any(|it| !it.is_empty())
+    };
+    let is_weak = |state: &OfState<'_>| {
+        let mut open = state.open.iter();
+        open.all(|it| it.evidence == Evidence::Possible)
+    };
+    let (mut shown, mut others): (Vec<_>, Vec<_>) = states
+        .iter()
+        .enumerate()
+        .partition(|(_, it)| is_decided(it));
+    others.sort_by_key(|(_, it)| is_weak(it));
+    shown.extend(others.into_iter().take(MOST_UNDECIDED));
+    shown.sort_by_key(|(at, _)| *at);
+    shown.into_iter().map(|(_, state)| state).collect()
 }
 
 fn of_state(out: &mut String, state: &OfState<'_>, paint: Paint) {
