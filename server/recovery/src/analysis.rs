@@ -6,7 +6,7 @@ use logic::{AtomId, Budget, Function, Name};
 use source::Diagnostic;
 
 use crate::conditions::{Conditions, Variable, conditions, conditions_after};
-use crate::conversion::Sums;
+use crate::conversion::{KnownForms, Sums};
 use crate::findings::Findings;
 use crate::groups::{Group, groups};
 use crate::order::Order;
@@ -37,8 +37,9 @@ pub struct Analysis {
     /// depends on.
     read: OnceLock<HashSet<AtomId>>,
     order: OnceLock<Arc<Order>>,
-    /// What conversions have put into words.
+    /// What conversions have put into words, and found to be right.
     pub(crate) sums: Sums,
+    pub(crate) forms: KnownForms,
 }
 
 /// What was known of a program before it was changed.
@@ -126,6 +127,7 @@ fn analysed(
         read: OnceLock::new(),
         order: OnceLock::new(),
         sums: Sums::default(),
+        forms: KnownForms::default(),
     }
 }
 

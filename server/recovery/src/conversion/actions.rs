@@ -71,7 +71,7 @@ pub(super) fn add(
 /// A chart whose steps are drawn, and what it takes to add their actions.
 struct Actions<'a> {
     analysis: &'a Analysis,
-    forms: &'a Forms<'a>,
+    forms: &'a Forms,
     sequences: &'a [Plan],
     wording: &'a Wording<'a>,
     names: &'a mut Names,

@@ -15,7 +15,7 @@ use super::seen::Seen;
 
 /// What is beside a memory.
 pub(super) struct Beside<'b> {
-    pub(super) seen: &'b Seen<'b>,
+    pub(super) seen: &'b Seen,
     /// Variables that have two steps.
     pub(super) steps: &'b BTreeSet<AtomId>,
     pub(super) budget: &'b Budget,

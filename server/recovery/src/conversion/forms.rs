@@ -12,6 +12,7 @@
 //! a continuous action has to see it.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 use logic::{AtomId, Budget, Function, Stop};
 
@@ -36,8 +37,9 @@ pub(super) enum Form {
 }
 
 /// The forms of all own variables that coils write.
-pub(super) struct Forms<'a> {
-    pub(super) seen: Seen<'a>,
+#[derive(Debug)]
+pub(super) struct Forms {
+    pub(super) seen: Seen,
     forms: BTreeMap<AtomId, Form>,
     /// States that belong to sequences.
     members: BTreeSet<AtomId>,
@@ -59,12 +61,19 @@ const MOST_NODES: usize = 1_000;
 /// Coils put into each other.
 const DEEPEST: usize = 8;
 
-impl<'a> Forms<'a> {
-    pub(super) fn new(analysis: &'a Analysis, accepted: &Accepted, budget: &Budget) -> Self {
+impl Forms {
+    /// The forms in a spec in which this is accepted.
+    pub(super) fn of_spec(analysis: &Analysis, accepted: &Accepted, budget: &Budget) -> Arc<Self> {
+        let members = accepted.members().into_iter().collect();
+        let known = &analysis.forms;
+        known.of(members, budget, |it| Self::new(analysis, it, budget))
+    }
+
+    fn new(analysis: &Analysis, members: BTreeSet<AtomId>, budget: &Budget) -> Self {
         let mut choice = Choice {
             analysis,
             seen: Seen::new(analysis, budget),
-            members: accepted.members().into_iter().collect(),
+            members,
             steps: BTreeSet::new(),
             budget: Budget {
                 nodes: budget.nodes.min(MOST_NODES),
@@ -201,7 +210,7 @@ fn is_coil(variable: &Variable) -> bool {
 /// Memories, while it is found out which of them are steps.
 struct Choice<'a> {
     analysis: &'a Analysis,
-    seen: Seen<'a>,
+    seen: Seen,
     members: BTreeSet<AtomId>,
     /// Variables that have two steps.
     steps: BTreeSet<AtomId>,
@@ -301,7 +310,7 @@ impl Choice<'_> {
                 continue;
             }
             let said = self.receptive(&exact[&atom], atom);
-            let said = said.filter(|said| self.beside().holds(atom, said) == Ok(true));
+            let said = said.filter(|said| self.is_memory(atom, said));
             match said.and_then(|said| self.as_read(&said)) {
                 Some(said) => {
                     for read in said.support() {
@@ -322,6 +331,16 @@ impl Choice<'_> {
             (atom, steps.map_or(Form::Action(next), Form::Steps))
         };
         exact.into_iter().map(form).collect()
+    }
+
+    /// Whether a memory of this condition can be two steps.
+    fn is_memory(&self, own: AtomId, said: &Function) -> bool {
+        let support = said.support().iter();
+        let of = support.map(|atom| self.seen.of_before(*atom).unwrap_or(*atom));
+        let steps = of.filter(|it| self.steps.contains(it)).collect();
+        let holds = || self.beside().holds(own, said) == Ok(true);
+        let known = &self.analysis.forms;
+        known.is_memory(own, said, steps, &self.budget, holds)
     }
 
     /// What may lead a memory astray.

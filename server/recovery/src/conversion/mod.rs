@@ -15,6 +15,7 @@ mod decisions;
 mod findings;
 mod forms;
 mod interface;
+mod known;
 mod naming;
 mod product;
 mod register;
@@ -30,6 +31,7 @@ use logic::{Budget, Name};
 
 pub use decisions::{Accept, Accepted, decide};
 pub use findings::spec_findings;
+pub(crate) use known::KnownForms;
 pub(crate) use sums::Sums;
 pub use unsaid::Unsaid;
 pub use update::{Departure, Update, update};
@@ -44,7 +46,7 @@ use wording::Wording;
 pub fn spec(analysis: &Analysis, decisions: &[Decision], budget: &Budget) -> Spec {
     let accepted = Accepted::new(analysis, decisions);
     let mut names = Names::new(analysis);
-    let forms = Forms::new(analysis, &accepted, budget);
+    let forms = Forms::of_spec(analysis, &accepted, budget);
     let mut wording = Wording::new(analysis, &forms.seen.atoms, budget);
     let mut chart = Chart::default();
 
@@ -81,7 +83,7 @@ pub fn spec(analysis: &Analysis, decisions: &[Decision], budget: &Budget) -> Spe
 /// sequence says what the expert has accepted.
 pub fn unsaid(analysis: &Analysis, decisions: &[Decision], budget: &Budget) -> Vec<(Name, Unsaid)> {
     let accepted = Accepted::new(analysis, decisions);
-    let forms = Forms::new(analysis, &accepted, budget);
+    let forms = Forms::of_spec(analysis, &accepted, budget);
     let names = actions::own_variables(analysis);
     names
         .filter_map(|it| Some((it.name.clone(), forms.unsaid.get(&it.atom)?.clone())))

@@ -25,7 +25,7 @@ struct Memory {
 
 /// What is drawn of the product form.
 pub(super) struct Product<'f> {
-    pub(super) forms: &'f Forms<'f>,
+    pub(super) forms: &'f Forms,
     memories: Vec<Memory>,
     followers: Vec<Follower>,
     /// What tells the first scan from the others, if something has to know.
@@ -36,7 +36,7 @@ impl<'f> Product<'f> {
     /// All of it with its steps named.
     pub(super) fn new(
         analysis: &Analysis,
-        forms: &'f Forms<'f>,
+        forms: &'f Forms,
         names: &mut Names,
         wording: &mut Wording<'_>,
     ) -> Self {
@@ -55,7 +55,7 @@ impl<'f> Product<'f> {
 /// said by two steps.
 fn memories(
     analysis: &Analysis,
-    forms: &Forms<'_>,
+    forms: &Forms,
     names: &mut Names,
     wording: &mut Wording<'_>,
 ) -> Vec<Memory> {
@@ -179,7 +179,7 @@ struct Follower {
 /// The followers of all variables whose last value actions read.
 fn followers(
     analysis: &Analysis,
-    forms: &Forms<'_>,
+    forms: &Forms,
     names: &mut Names,
     wording: &mut Wording<'_>,
 ) -> Vec<Follower> {
@@ -213,7 +213,7 @@ pub(super) struct First {
 
 /// What tells the first scan from the others, if something has to know.
 fn first(
-    forms: &Forms<'_>,
+    forms: &Forms,
     followers: &[Follower],
     names: &mut Names,
     wording: &mut Wording<'_>,

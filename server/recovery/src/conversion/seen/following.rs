@@ -1,37 +1,20 @@
-//! What each rung sees of what others write: of this scan or of the last.
-//!
-//! Conditions are said over what contacts see, and a contact sees what was
-//! written last. The same variable is the value of this scan below the rung
-//! that writes it, that of the last scan above, and something between the two
-//! among several rungs that do. The rules of a grafcet say which of them they
-//! read, so here each is an atom of its own: that of the variable is what it
-//! is after the scan, another what it was before. What is between the two is
-//! put in as the writes up to there have it.
+//! The way through all writes, in the order of the scan.
 
 use std::collections::{BTreeSet, HashMap};
 
 use ladder::scan::Machine;
-use logic::{Atom, AtomId, Atoms, Budget, Expr, Function, Name};
+use logic::{Atom, AtomId, Budget, Expr, Function, Name};
 
-use super::unsaid::Unsaid;
+use super::Seen;
 use crate::Analysis;
 use crate::conditions::{AT_START, Variable, Write, WriteKind, value_after};
+use crate::conversion::actions::own_variables;
+use crate::conversion::unsaid::Unsaid;
 use crate::order::{Order, Place, Reader, names_in};
 
-/// What own variables become in a scan, over atoms that say of which scan they
-/// speak.
-pub(super) struct Seen<'a> {
-    /// The atoms of the ladder, and behind them those of the last scan.
-    pub(super) atoms: Atoms,
-    /// Of a variable the atom of what it was before the scan.
-    before: HashMap<AtomId, AtomId>,
-    /// The same the other way round.
-    of_before: HashMap<AtomId, AtomId>,
-    next: HashMap<AtomId, Result<Function, Unsaid>>,
-    /// Stands for a step that is active in the first scan only.
-    pub(super) first: AtomId,
-    /// Variables that are on before the first scan.
-    initial: BTreeSet<AtomId>,
+/// The way through a program that finds out what rungs see.
+struct Following<'a> {
+    seen: Seen,
     writes: HashMap<AtomId, Vec<Known>>,
     between: HashMap<(AtomId, usize), Result<Function, Unsaid>>,
     machine: Machine<'a>,
@@ -42,17 +25,20 @@ pub(super) struct Seen<'a> {
 /// A write as it is seen, and when it happens.
 type Known = (Place, Result<Write, Unsaid>);
 
-impl<'a> Seen<'a> {
-    pub(super) fn new(analysis: &'a Analysis, budget: &Budget) -> Self {
+/// What the own variables of a ladder become in a scan.
+pub(super) fn followed(analysis: &Analysis, budget: &Budget) -> Seen {
+    Following::new(analysis, budget).seen
+}
+
+impl<'a> Following<'a> {
+    fn new(analysis: &'a Analysis, budget: &Budget) -> Self {
         let order = analysis.order();
         // What only rungs write that no scan solves is an input.
         let is_written = |it: &&Variable| {
             let mut writes = it.writes.iter();
             writes.any(|write| order.of(write.place.rung(), write.place.element).is_some())
         };
-        let variables: Vec<&Variable> = super::actions::own_variables(analysis)
-            .filter(is_written)
-            .collect();
+        let variables: Vec<&Variable> = own_variables(analysis).filter(is_written).collect();
         let machine = Machine::new(&analysis.program);
         let mut atoms = analysis.conditions.atoms.clone();
         // A line end keeps these apart from all that a program can name.
@@ -65,21 +51,24 @@ impl<'a> Seen<'a> {
             .collect();
         let first = atoms.add_variable(&"\nthe first scan".into());
         let on = variables.iter().filter(|it| machine.is_on(&it.name));
-        let mut seen = Self {
+        let seen = Seen {
             atoms,
             of_before: before.iter().map(|(of, before)| (*before, *of)).collect(),
             before,
             first,
             next: HashMap::new(),
             initial: on.map(|it| it.atom).collect(),
+        };
+        let mut following = Self {
+            seen,
             writes: HashMap::new(),
             between: HashMap::new(),
             machine,
             order,
             budget: budget.clone(),
         };
-        seen.follow(&variables);
-        seen
+        following.follow(&variables);
+        following
     }
 
     /// Brings all writes, in the order of the scan, to what they see.
@@ -121,53 +110,8 @@ impl<'a> Seen<'a> {
                 true => Err(Unsaid::Repeated),
                 false => self.folded(variable.atom, usize::MAX),
             };
-            self.next.insert(variable.atom, next);
+            self.seen.next.insert(variable.atom, next);
         }
-    }
-
-    /// What the variable is after the scan; its own atom is what it was
-    /// before.
-    pub(super) fn next(&self, atom: AtomId) -> Result<&Function, Unsaid> {
-        match self.next.get(&atom) {
-            Some(Ok(next)) => Ok(next),
-            Some(Err(why)) => Err(why.clone()),
-            None => Err(Unsaid::Written),
-        }
-    }
-
-    /// Whether the variable is one that the program's own coils write.
-    pub(super) fn is_own(&self, atom: AtomId) -> bool {
-        self.before.contains_key(&atom)
-    }
-
-    /// The variable of which `atom` says what it was before the scan.
-    pub(super) fn of_before(&self, atom: AtomId) -> Option<AtomId> {
-        self.of_before.get(&atom).copied()
-    }
-
-    /// The atom that says what a variable was before the scan.
-    pub(super) fn before(&self, atom: AtomId) -> Option<AtomId> {
-        self.before.get(&atom).copied()
-    }
-
-    /// Whether the variable is on before the first scan.
-    pub(super) fn is_initial(&self, atom: AtomId) -> bool {
-        self.initial.contains(&atom)
-    }
-
-    /// The own variables in the expression of an edge, with whether it means
-    /// what they were before the scan.
-    pub(super) fn in_edge(&self, atom: AtomId) -> Vec<(AtomId, bool)> {
-        let (Atom::Rise(inner) | Atom::Fall(inner)) = self.atoms.atom(atom) else {
-            return Vec::new();
-        };
-        let ids = names_in(inner).into_iter();
-        let ids = ids.filter_map(|name| self.atoms.find_variable(&name));
-        ids.filter_map(|id| match self.of_before(id) {
-            Some(of) => Some((of, true)),
-            None => self.is_own(id).then_some((id, false)),
-        })
-        .collect()
     }
 
     /// A variable after its first `writes` writes, over its own atom as what
@@ -188,7 +132,7 @@ impl<'a> Seen<'a> {
             return known.clone();
         }
         let value = self.folded(atom, writes).and_then(|value| {
-            let before = Function::atom(self.before[&atom]);
+            let before = Function::atom(self.seen.before[&atom]);
             let value = value.substitute(atom, &before, &self.budget);
             value.map_err(|_| Unsaid::TooLarge)
         });
@@ -233,7 +177,7 @@ impl<'a> Seen<'a> {
         target: AtomId,
         reader: &Reader,
     ) -> Result<(), Unsaid> {
-        let Atom::Variable(name) = self.atoms.atom(target) else {
+        let Atom::Variable(name) = self.seen.atoms.atom(target) else {
             return Ok(());
         };
         let is_before = || self.writes_before(target, name, reader);
@@ -290,12 +234,12 @@ impl<'a> Seen<'a> {
         reader: &Reader,
         is_always: bool,
     ) -> Result<Option<Function>, Unsaid> {
-        match self.atoms.atom(atom).clone() {
-            Atom::Variable(name) if self.is_own(atom) => {
+        match self.seen.atoms.atom(atom).clone() {
+            Atom::Variable(name) if self.seen.is_own(atom) => {
                 let writes = self.writes_before(atom, &name, reader)?;
                 Ok(match writes {
                     Writes::All => None,
-                    Writes::None => Some(Function::atom(self.before[&atom])),
+                    Writes::None => Some(Function::atom(self.seen.before[&atom])),
                     Writes::Some(writes) => Some(self.after_writes(atom, writes)?),
                 })
             }
@@ -360,13 +304,13 @@ impl<'a> Seen<'a> {
     /// what it is, but for the scans in which it has changed.
     fn last(&mut self, atom: Atom) -> Result<Function, Unsaid> {
         let was_on = self.begins_on(&atom);
-        let now = Function::atom(self.atoms.add(atom.clone()));
+        let now = Function::atom(self.seen.atoms.add(atom.clone()));
         let said = Box::new(match was_on {
             false => Expr::Atom(atom),
             true => Expr::Not(Box::new(Expr::Atom(atom))),
         });
-        let rise = Function::atom(self.atoms.add(Atom::Rise(said.clone())));
-        let fall = Function::atom(self.atoms.add(Atom::Fall(said)));
+        let rise = Function::atom(self.seen.atoms.add(Atom::Rise(said.clone())));
+        let fall = Function::atom(self.seen.atoms.add(Atom::Fall(said)));
         let now = if was_on { now.not() } else { now };
         let last = now
             .and_not(&rise, &self.budget)
@@ -405,11 +349,17 @@ impl<'a> Seen<'a> {
         let mut renamed: HashMap<Name, Name> = HashMap::new();
         for name in names_in(inner) {
             let plain = Atom::Variable(name.clone());
-            match self.atoms.find(&plain).filter(|id| self.is_own(*id)) {
+            match self
+                .seen
+                .atoms
+                .find(&plain)
+                .filter(|id| self.seen.is_own(*id))
+            {
                 Some(id) => match self.writes_before(id, &name, reader)? {
                     Writes::All => {}
                     Writes::None => {
-                        if let Atom::Variable(before) = self.atoms.atom(self.before[&id]) {
+                        if let Atom::Variable(before) = self.seen.atoms.atom(self.seen.before[&id])
+                        {
                             renamed.insert(name, before.clone());
                         }
                     }
@@ -423,7 +373,7 @@ impl<'a> Seen<'a> {
             return Ok(None);
         }
         let edge = of(Box::new(with_names(inner, &renamed)));
-        Ok(Some(Function::atom(self.atoms.add(edge))))
+        Ok(Some(Function::atom(self.seen.atoms.add(edge))))
     }
 }
 
