@@ -1,6 +1,6 @@
 //! The variables that a spec reads and writes, declared.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 use grafcet::{Grafcet, Variable};
 use logic::{Atom, Expr, Name};
@@ -42,20 +42,13 @@ pub(super) fn declare(analysis: &Analysis, grafcet: &mut Grafcet) {
             Some("too large to be written out".into())
         },
     };
-    let mut places: BTreeMap<Name, usize> = BTreeMap::new();
-    for (at, (_, atom)) in analysis.conditions.atoms.iter().enumerate() {
-        if let Atom::Variable(name) = atom {
-            places.insert(name.clone(), at);
-        }
-    }
-    let place = |name: &Name| {
-        (
-            places.get(name).copied().unwrap_or(usize::MAX),
-            name.clone(),
-        )
+    let atoms = &analysis.conditions.atoms;
+    let place = |name: &&Name| {
+        let atom = atoms.find_variable(name);
+        (atom.is_none(), atom, Name::clone(name))
     };
     let mut outputs: Vec<&Name> = written.iter().collect();
-    outputs.sort_by_key(|name| place(name));
+    outputs.sort_by_cached_key(place);
     for name in outputs {
         let is_output = analysis
             .conditions
@@ -68,7 +61,7 @@ pub(super) fn declare(analysis: &Analysis, grafcet: &mut Grafcet) {
         }
     }
     let mut inputs: Vec<&Name> = mentioned.difference(&written).collect();
-    inputs.sort_by_key(|name| place(name));
+    inputs.sort_by_cached_key(place);
     grafcet.inputs = inputs.into_iter().map(declared).collect();
 }
 
