@@ -27,9 +27,9 @@ impl Beside<'_> {
     ///
     /// While the situation evolves the steps of another memory are what they
     /// were up to some evolution and what they become from then on; an edge is
-    /// what it is in the first evolution and then off. `some` and `later` are
-    /// two moments, one after the other, at which any of them may have
-    /// changed.
+    /// what it is in the first evolution and then off. Between the first moment
+    /// and the last two others are looked at, one after the other: at the
+    /// earlier `some` of them have changed, at the later `more` besides.
     pub(super) fn holds(&self, own: AtomId, said: &Function) -> Result<bool, Stop> {
         let budget = self.budget;
         let mut fresh = Fresh::new(&self.seen.atoms);
@@ -180,7 +180,8 @@ impl Fresh {
 
     fn atom(&mut self) -> AtomId {
         self.given += 1;
-        let name = format!("moment {} of an evolution", self.given).into();
+        // A line end keeps these apart from all that a program can name.
+        let name = format!("\nmoment {} of an evolution", self.given).into();
         self.atoms.add_variable(&name)
     }
 }
