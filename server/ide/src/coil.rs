@@ -48,8 +48,7 @@ impl AtRest<'_> {
     /// What is supposed, in words.
     pub fn in_words(&self) -> String {
         let by = match self.written {
-            Some((routine, rung)) if routine.scope.is_empty() => format!("rung {}", rung.number),
-            Some((routine, rung)) => format!("rung {} of {}", rung.number, routine.scope),
+            Some((routine, rung)) => routine.name_of(rung),
             None => "a rung".to_owned(),
         };
         format!(

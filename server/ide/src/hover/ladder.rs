@@ -192,10 +192,7 @@ const MOST_NAMED: usize = 6;
 /// A rung as people name it.
 pub(crate) fn rung_title(ladder: &Ladder, place: Place) -> Option<String> {
     let (routine, rung) = ladder.rung(place)?;
-    let number = match routine.scope.is_empty() {
-        true => format!("rung {}", rung.number),
-        false => format!("rung {} of {}", rung.number, routine.scope),
-    };
+    let number = routine.name_of(rung);
     Some(match &rung.comment {
         Some(comment) => format!("{number} ({})", first_line(comment)),
         None => number,

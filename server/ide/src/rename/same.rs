@@ -72,7 +72,7 @@ impl Renaming<'_> {
         }
         for (one, other) in before.rungs.iter().zip(&after.rungs) {
             if !self.is_same_rung(one, other) {
-                return Err(format!("rung {} of {}", one.number, before.scope));
+                return Err(before.name_of(one));
             }
         }
         Ok(())

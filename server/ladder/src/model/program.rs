@@ -127,6 +127,17 @@ pub struct Rung {
     origin: u32,
 }
 
+impl Routine {
+    /// One of its rungs as people name it: `rung 3 of Main`, or `rung 3` where
+    /// the source has no name for what is around it.
+    pub fn name_of(&self, rung: &Rung) -> String {
+        match self.scope.is_empty() {
+            true => format!("rung {}", rung.number),
+            false => format!("rung {} of {}", rung.number, self.scope),
+        }
+    }
+}
+
 impl Rung {
     /// A rung that stands at `span`.
     pub fn new(number: u32, comment: Option<Name>, drawn: Placed, span: Span) -> Self {

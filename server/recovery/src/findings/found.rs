@@ -136,8 +136,7 @@ fn rung(program: &Program, place: Place) -> Option<&Rung> {
 
 /// A rung as people name it: its routine and number.
 fn name(program: &Program, place: Place) -> String {
-    let scope = program.routines.get(place.routine);
-    let scope = scope.map_or("", |routine| &*routine.scope);
-    let number = rung(program, place).map_or(0, |rung| rung.number);
-    format!("rung {number} of {scope}")
+    let routine = program.routines.get(place.routine);
+    let named = routine.zip(rung(program, place));
+    named.map_or_else(String::new, |(routine, rung)| routine.name_of(rung))
 }

@@ -114,8 +114,7 @@ fn inexact(conversion: &Conversion<'_>) -> Vec<Inexact> {
         let mut rungs: Vec<String> = places
             .filter_map(|place| {
                 let routine = analysis.program.routines.get(place.routine)?;
-                let number = routine.rungs.get(place.rung)?.number;
-                Some(format!("rung {number} of {}", routine.scope))
+                Some(routine.name_of(routine.rungs.get(place.rung)?))
             })
             .collect();
         rungs.dedup();
